@@ -1,6 +1,8 @@
 /// Surfaces of samples by columns.
 #include "average/surface.h"
 
+#include "shape/polygon.h"
+
 #include <math.h>
 
 enum { OF_DIAMETER = 4 }; ///< columns of a mean diameter
@@ -24,8 +26,30 @@ static double away(const scree_average_surface *s, int axis, size_t k, double pl
     return s->origin[axis] + ((double)k + 0.5) * s->width - place;
 }
 
+/// The vertical extent of a grain at (dx, dy) from its centre, relative to that; false: it does not reach there.
+static bool find_chord(const scree_average_sample *sample, const scree_average_grain *grain, double dx, double dy,
+                       double chord[2])
+{
+    const double square = grain->radius * grain->radius - dx * dx - dy * dy;
+    if (square < 0) return false;
+    chord[1] = sqrt(square);
+    chord[0] = -chord[1];
+    if (grain->corner_count == 0) return true;
+    double placed[SCREE_POLYGON_CORNERS][2];
+    scree_average_outline(sample, grain, placed);
+    chord[0] = INFINITY, chord[1] = -INFINITY;
+    for (uint32_t k = 0; k < grain->corner_count; k++) {
+        const double *a = placed[k], *b = placed[(k + 1) % grain->corner_count];
+        if ((a[0] - dx) * (b[0] - dx) > 0 || a[0] == b[0]) continue;
+        const double y = a[1] + (dx - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+        chord[0] = fmin(chord[0], y);
+        chord[1] = fmax(chord[1], y);
+    }
+    return chord[0] <= chord[1];
+}
+
 /// Lets a grain raise and lower the columns that it covers.
-static void cover(scree_average_surface *s, const scree_average_grain *grain)
+static void cover(const scree_average_sample *sample, scree_average_surface *s, const scree_average_grain *grain)
 {
     const double r = grain->radius, *x = grain->position, height = x[s->dimension - 1];
     size_t from[2] = {0, 0}, to[2] = {0, 0};
@@ -35,12 +59,12 @@ static void cover(scree_average_surface *s, const scree_average_grain *grain)
     }
     for (size_t i = from[0]; i <= to[0]; i++)
         for (size_t j = from[1]; j <= to[1]; j++) {
-            const double dx = away(s, 0, i, x[0]), dy = s->dimension == 3 ? away(s, 1, j, x[1]) : 0;
-            const double square = r * r - dx * dx - dy * dy;
-            if (square < 0) continue;
+            double chord[2];
+            const double dy = s->dimension == 3 ? away(s, 1, j, x[1]) : 0;
+            if (!find_chord(sample, grain, away(s, 0, i, x[0]), dy, chord)) continue;
             double *top = &s->top[i * s->columns[1] + j], *bottom = &s->bottom[i * s->columns[1] + j];
-            if (!(*top >= height + sqrt(square))) *top = height + sqrt(square);
-            if (!(*bottom <= height - sqrt(square))) *bottom = height - sqrt(square);
+            if (!(*top >= height + chord[1])) *top = height + chord[1];
+            if (!(*bottom <= height + chord[0])) *bottom = height + chord[0];
         }
 }
 
@@ -144,7 +168,7 @@ scree_status scree_average_surface_find(const scree_average_sample *sample, scre
         if (sample->own[p].contacts > 0) reach = fmax(reach, sample->grain[p].position[sample->dimension - 1]);
     for (size_t p = 0; p < sample->bodies && !status; p++) {
         const scree_average_grain *grain = &sample->grain[p];
-        if (grain->counted && grain->position[sample->dimension - 1] <= reach) cover(s, grain);
+        if (grain->counted && grain->position[sample->dimension - 1] <= reach) cover(sample, s, grain);
     }
     if (!status) status = smooth_bottom(sample, s, error);
     if (!status) find_ends(sample, s);

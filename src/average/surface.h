@@ -1,7 +1,7 @@
 /// Where a sample is: its lower and upper surface in columns of half a mean radius, so that the part of an element that
 /// lies inside the sample is known, and of a pile its foot and its top.
 ///
-/// The upper surface of a column is the highest point of the circles of the grains at its middle; the lower one the
+/// The upper surface of a column is the highest point of the outlines of the grains at its middle; the lower one the
 /// lowest point of those within a mean diameter of it (what stands below has no voids), and the base where it is not a
 /// mean diameter above that. The base is the lowest point where a grain touches what is no body, or the lowest grain.
 /// Columns without a grain are outside. The heap is what lies around the highest grain without a gap of more than a

@@ -124,6 +124,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     if (count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no run is named");
     scree_status status = measure_plan_read(options, &plan, error);
     if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
+    plan.network = count == 1 && !plan.mean && !options->no_figures ? folder : NULL;
     if (!status) status = scree_allocate(&each, count, sizeof *each, error);
     if (!status) status = measure_all(runs, count, &plan, each, &found, error);
     if (!status) {

@@ -33,6 +33,7 @@ typedef struct measure_plan {
     const char *at, *from;
     bool mean; ///< over all snapshots of the stage `at`
     int threads;
+    const char *network; ///< folder that the network of one run is drawn into; NULL: it is not
     const scree_measure_options *options;
 } measure_plan;
 
@@ -61,6 +62,11 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
 
 /// Draws it. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
+
+/// Draws the network of a plane sample and its chains. linked: a contact, 1 where it is a link of a chain. Errors:
+/// SCREE_ERROR_IO; memory.
+scree_status measure_draw_network(const char *folder, const scree_average_sample *sample, const uint8_t *linked,
+                                  scree_error *error);
 
 /// Tells a line, printf-like.
 __attribute__((format(printf, 2, 3))) void measure_say(const measure_plan *plan, const char *format, ...);

@@ -3,6 +3,7 @@
 
 #include "io/run_directory.h"
 #include "view/chart.h"
+#include "view/links.h"
 #include "view/map.h"
 
 #include <limits.h>
@@ -11,6 +12,8 @@
 #include <string.h>
 
 enum { MOST_LINES = 7, SECTORS = 36 };
+
+#define LEAST_INSIDE 0.2 /* elements of which less lies in the sample are left white */
 
 /// A figure that has nothing to show is left out.
 static scree_status forgive(scree_status status)
@@ -130,6 +133,10 @@ static const map_figure map_figures[] = {
      "fabric_angle"},
     {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes, and their mean direction",
      "order (0 none, 1 all alike)", 1, SEQUENTIAL, "axes_angle"},
+    {MEASURE_MAP, "map-velocity", "velocity_x", "Horizontal velocity", "velocity x (m/s)", 1, SCREE_COLOUR_DIVERGING,
+     NULL},
+    {MEASURE_MAP, "map-strain-vertical", "bagi_yy", "Vertical strain (cells), compression positive", "strain", -1,
+     SCREE_COLOUR_DIVERGING, NULL},
     {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
      NULL},
     {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "minus stress yy (kPa)", -1e-3,
@@ -145,7 +152,7 @@ static void blank(const scree_average_table *table, double *value)
 {
     const size_t inside = scree_average_table_find(table, "inside"), full = scree_average_table_find(table, "density");
     for (size_t k = 0; k < table->rows; k++) {
-        const bool empty = inside != SIZE_MAX ? !(scree_average_table_get(table, k, inside) > 0.05)
+        const bool empty = inside != SIZE_MAX ? !(scree_average_table_get(table, k, inside) > LEAST_INSIDE)
                                               : !(scree_average_table_get(table, k, full) > 0);
         if (empty) value[k] = NAN;
     }
@@ -204,8 +211,8 @@ static scree_status draw_distribution(const char *folder, const measure_found *f
     for (size_t k = 0; k < n && !status; k++) x[k] += 0.5 * scree_average_table_get(table, k, to);
     if (!status) status = scree_path_join(path, sizeof path, folder, "force-distribution", error);
     const scree_chart_line line[] = {
-        {.x = x, .y = y[0], .count = n, .label = "normal forces of contacts", .points = true},
-        {.x = x, .y = y[1], .count = n, .label = "vertical forces on what it stands on", .points = true}};
+        {.x = x, .y = y[0], .count = n, .label = "contacts, normal", .points = true},
+        {.x = x, .y = y[1], .count = n, .label = "on the floor, vertical", .points = true}};
     const scree_chart chart = {.title = "Distribution of forces",
                                .x_label = "force over its mean, n",
                                .y_label = "P(n)",
@@ -260,6 +267,40 @@ static scree_status draw_rose(const char *folder, const measure_found *found, sc
     scree_release(&angle);
     scree_release(&petal);
     scree_release(&line);
+    return status;
+}
+
+/// From centre to centre, or to the point of contact with what is no body.
+static scree_link link_of(const scree_average_sample *sample, const scree_average_contact *contact, bool marked)
+{
+    const double *x = sample->grain[contact->first].position;
+    scree_link link = {.force = scree_length(contact->force) / sample->mean_force, .marked = marked};
+    for (int k = 0; k < 2; k++) {
+        link.from[k] = x[k];
+        link.to[k] = x[k] - contact->branch[k];
+    }
+    return link;
+}
+
+scree_status measure_draw_network(const char *folder, const scree_average_sample *sample, const uint8_t *linked,
+                                  scree_error *error)
+{
+    scree_link *link;
+    char path[PATH_MAX];
+    if (sample->dimension == 3) return SCREE_OK;
+    scree_status status = scree_folders_make(folder, error);
+    if (!status) status = scree_path_join(path, sizeof path, folder, "chains", error);
+    if (!status) status = scree_allocate(&link, sample->contacts, sizeof *link, error);
+    if (status) return status;
+    for (size_t c = 0; c < sample->contacts; c++) link[c] = link_of(sample, &sample->contact[c], linked[c]);
+    const scree_links links = {.title = "Force network and its chains",
+                               .marked_name = "in a chain of three grains or more",
+                               .other_name = "other contacts; widths as forces",
+                               .link = link,
+                               .count = sample->contacts,
+                               .width = 0.22 * sample->mean_radius};
+    status = forgive(scree_links_draw(path, &links, error));
+    scree_release(&link);
     return status;
 }
 

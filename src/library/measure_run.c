@@ -105,10 +105,15 @@ static void tell_whole(const scree_average_view *view, scree_average_table *valu
     scree_average_table_take(values, "bottom_row_ratio", "1", view->weight > 0 ? averages / above : NAN);
 }
 
-static scree_status tell_chains(const scree_average_sample *sample, scree_average_table *values, scree_error *error)
+static scree_status tell_chains(const scree_average_sample *sample, const measure_plan *plan,
+                                scree_average_table *values, scree_error *error)
 {
     scree_average_chains chains;
-    scree_status status = scree_average_chains_find(sample, M_PI / 4, NULL, &chains, error);
+    uint8_t *linked;
+    scree_status status = scree_allocate(&linked, sample->contacts, sizeof *linked, error);
+    if (!status) status = scree_average_chains_find(sample, M_PI / 4, linked, &chains, error);
+    if (!status && plan->network) status = measure_draw_network(plan->network, sample, linked, error);
+    scree_release(&linked);
     if (status) return status;
     scree_average_table_take(values, "chains", "1", (double)chains.chains);
     scree_average_table_take(values, "chain_grain_share", "1", chains.grain_share);
@@ -196,7 +201,7 @@ static scree_status measure_view(scree_average_sample *sample, const scree_avera
     scree_status status = scree_average_table_begin_row(values, error);
     if (!status) tell_whole(view, values);
     if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
-    if (!status) status = tell_chains(sample, values, error);
+    if (!status) status = tell_chains(sample, plan, values, error);
     if (!status && plan->kernel) status = measure_kernel(sample, view, plan, tables, error);
     if (!status) status = scree_average_table_end_row(values, error);
     if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);

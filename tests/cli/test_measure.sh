@@ -13,7 +13,7 @@ done
 expect 0 'kernel_residual' "$scree" measure pile1 --fields density,coordination,stress,fabric,inertia,velocity \
     --grid 12x8 --kernel 3 --cuts 2 -o one
 for file in values.csv cuts.csv map.csv kernel.csv forces.csv friction.csv rose.csv dips.csv summary.json \
-    cuts-pressure-scaled.png map-stress-vertical.png kernel-stress-shear.png force-distribution.png rose.png; do
+    cuts-pressure-scaled.png map-stress-vertical.png kernel-stress-shear.png force-distribution.png rose.png chains.png; do
     checks=$((checks + 1))
     [ -s "one/$file" ] || complain "there is no one/$file"
 done
@@ -62,4 +62,5 @@ expect 2 '--from: ' "$scree" measure pile1 --at mean:2 --from start
 expect 2 'no grain to average over' "$scree" measure pile1 --at start
 expect 2 'no grain is in both' "$scree" measure pile1 --from start
 expect 4 'cannot open|no such' "$scree" measure nothing
+[ -e nothing ] && complain "a folder was made of a run that is not there"
 finish

@@ -212,6 +212,28 @@ static void test_surface(void **state)
     scree_average_sample_destroy(&s);
 }
 
+/// The surface goes over the outline of a polygon and not over its circle: a square that lies flat fills its box.
+static void test_surface_of_polygons(void **state)
+{
+    (void)state;
+    scree_average_sample s = average_begin(2);
+    const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    memcpy(s.corner, corner, sizeof corner);
+    for (uint32_t k = 0; k < 8; k++) {
+        const uint32_t one = average_add(&s, 2 * k + 1, 1, 0, sqrt(2));
+        s.grain[one].corner_count = 4;
+        s.grain[one].volume = 4;
+        average_stand(&s, one, (double[3]){2 * k + 1, 0, 0}, (double[3]){0, 1, 0});
+    }
+    average_finish(&s);
+    scree_average_view view = open_view(&s, &(scree_average_plan){.side = 1});
+    const scree_average_element element = {{4, 0, 0}, {8, 4, 0}};
+    near(told(&view, &element, SCREE_AVERAGE_DENSITY, "inside"), 0.5, 1e-12);
+    near(told(&view, &element, SCREE_AVERAGE_DENSITY, "volume_fraction_parts_inside"), 1, 1e-12);
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
 /// A column of grains under gravity: what the averages of the lowest row say of the force on the floor.
 static void test_plate(void **state)
 {
@@ -284,6 +306,7 @@ int main(void)
         cmocka_unit_test(test_single_grain),
         cmocka_unit_test(test_inertia),
         cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_surface_of_polygons),
         cmocka_unit_test(test_plate),
         cmocka_unit_test(test_bad_samples),
         cmocka_unit_test(test_principal),
