@@ -243,7 +243,7 @@ static uint64_t bits_of(const char *text, const char *override, int threads, int
     scree_simulation s = open_with(text, &override, override ? 1 : 0, &c);
     simulation_lose_work(&s, threads);
     s.work.keep_threads = true;
-    for (int k = 0; simulation_goes_on(&s) && scree_state_time(&s.state) < 0.9; k++) {
+    for (int k = 0; simulation_goes_on(&s) && scree_state_time(&s.state) < 0.6; k++) {
         if (disturbance == FORGET && k % 3 == 0) scree_neighbours_invalidate(&s.work);
         if (disturbance == LOSE && k % 997 == 500) simulation_lose_work(&s, threads);
         simulation_step(&s);
