@@ -34,10 +34,16 @@ static const config *own_config(const scree_simulation *s)
     return scree_stage_config(s)->own;
 }
 
+/// Whether the plates have been given a velocity.
+static bool has_velocity(const config *stage)
+{
+    return stage->velocity > 0;
+}
+
 /// 1/s, of a sample of this height.
 static double rate_at(const config *stage, double height)
 {
-    return isnan(stage->velocity) ? stage->rate : 2 * stage->velocity / height;
+    return has_velocity(stage) ? 2 * stage->velocity / height : stage->rate;
 }
 
 static double rate_now(const scree_simulation *s)
@@ -82,7 +88,7 @@ static double fraction(const scree_simulation *s)
 static double rate_of(const scree_model *model, const void *own)
 {
     const config *stage = own;
-    if (isnan(stage->velocity)) return stage->rate;
+    if (!has_velocity(stage)) return stage->rate;
     return rate_at(stage, scree_expected_height(model, scree_expected_solid_fraction(model)));
 }
 
@@ -117,7 +123,7 @@ static void rules(scree_reader *reader, const scree_config *whole)
 static const char *wrong(const scree_config *whole, int64_t index, const char **key)
 {
     const config *stage = whole->stages[index].own;
-    const bool rate = !isnan(stage->rate), velocity = !isnan(stage->velocity);
+    const bool rate = !isnan(stage->rate), velocity = has_velocity(stage);
     *key = velocity ? "velocity" : "rate";
     if (rate && velocity) return "rate is given: give one of the two";
     if (velocity && !scree_boundary_has_plates(scree_config_held_by(whole, index)))
