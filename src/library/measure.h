@@ -56,6 +56,11 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
 scree_status measure_run(const char *directory, const measure_plan *plan, measure_tables *tables, scree_error *error);
 void measure_tables_destroy(measure_tables *tables);
 
+/// Smooth fields of a sample, and where it has earlier moments those of its changes since `before`. Errors: memory.
+scree_status measure_kernel(const scree_average_sample *before, const scree_average_sample *sample,
+                            const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
+                            scree_error *error);
+
 /// Writes what was found into the folder. Errors: SCREE_ERROR_IO.
 scree_status measure_write(const char *folder, const measure_plan *plan, const measure_found *found,
                            scree_error *error);
