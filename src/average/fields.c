@@ -131,6 +131,8 @@ static void tell_fabric(const telling *t)
     tell_form(t, "fabric", "1", v->centres.branches, 1 / v->volume);
     tell(t, "fabric_trace", "_inside", "1",
          (v->centres.branches[0] + v->centres.branches[4] + v->centres.branches[8]) / v->volume / v->inside);
+    const scree_tensor_form fabric = scree_tensor_form_of(v->centres.branches, t->sample->dimension);
+    tell(t, "fabric_anisotropy", "", "1", fabric.deviator / fabric.trace);
     tell(t, "fabric_factor", "", "1",
          (v->centres.branches[0] + v->centres.branches[4] + v->centres.branches[8]) * v->centres.grains /
              (v->centres.solid * v->centres.contacts));

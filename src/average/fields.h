@@ -10,6 +10,7 @@
 ///     inertia           sum w V_p theta_p / V                                              R 2.92
 ///     axes              sum e (x) e / number, e the long axis of each grain that has one
 ///     velocity          sum w m v / sum w m
+///     fabric_anisotropy largest less smallest principal value of F over tr F
 ///     fabric_factor     tr F / (volume_fraction coordination), g_2 of R 3.4
 /// The trace of the fabric tensor of equal grains is volume_fraction times coordination. theta grows with the fourth
 /// power of the size (fifth in 3D) and is weighted by another volume: a few large grains rule it, which is why the mean

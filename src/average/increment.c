@@ -21,7 +21,7 @@
     }
 #define AGAINST(name, of)                                                                                              \
     {                                                                                                                  \
-        name "_fabric_correlation", "1", "correlation of " of " with the trace of the fabric tensor"                   \
+        name "_fabric_correlation", "1", "rank correlation of " of " with the trace of the fabric tensor"              \
     }
 
 const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
@@ -43,8 +43,8 @@ const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
      "strain of Cambou less that of Cundall over the latter, root mean squares along it"},
     {"strain_liao_deviation", "1", "the same of the strain of Liao"},
     {"strain_bagi_deviation", "1", "the same of the mean of the Delaunay cells"},
-    {"strain_difference_deviation", "1", "the same of the difference quotient, inner half of the cut"},
-    {"strain_difference_surface", "1", "the same, outer half of the cut"},
+    {"strain_difference_deviation", "1", "the same of the difference quotient, in the core"},
+    {"strain_difference_surface", "1", "the same, outside of the core"},
     REGIONS("bulk_modulus", "Pa", "bulk modulus"),
     REGIONS("shear_modulus", "Pa", "shear modulus"),
     REGIONS("young_modulus", "Pa", "Young's modulus"),
@@ -68,8 +68,8 @@ const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
     {"fabric_anisotropy_flank", "1", "the same in the flanks"},
     {"fabric_angle_left", "degree", "major axis of the fabric tensor in the left flank, with the x axis, mean"},
     {"fabric_angle_right", "degree", "the same in the right flank"},
-    {"fabric_stress_angle", "degree", "mean angle between the major axes of fabric and pressure along the lowest cut"},
-    {"strain_stress_angle", "degree", "the same between the axes of the strain and of the change of stress"},
+    {"fabric_stress_offset", "degree", "mean angle between the major axes of fabric and pressure along the lowest cut"},
+    {"strain_stress_offset", "degree", "the same between the axes of the strain and of the change of stress"},
     {"increment_element", "1", "grains that an element holds"},
 };
 
@@ -124,39 +124,76 @@ static bool is_of(const scree_average_table *table, size_t row, region where)
     return false;
 }
 
-/// Median of a column, over another one unless that is NULL, in a region.
-static double median(const finding *f, region where, const char *name, const char *over)
+/// Median of a column in a region.
+static double median(const finding *f, region where, const char *name)
 {
     double value[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS];
     size_t count = 0;
     for (size_t row = 0; row < f->cuts->rows; row++)
-        if (is_of(f->cuts, row, where)) value[count++] = get(f->cuts, row, name) / (over ? get(f->cuts, row, over) : 1);
+        if (is_of(f->cuts, row, where)) value[count++] = get(f->cuts, row, name);
     return scree_average_quantile(value, count, 0.5);
 }
 
-/// Pearson's coefficient of two columns, and the slope of the second over the first, over elements whose first lies
-/// between two limits.
-typedef struct relation {
-    double coefficient, slope;
-} relation;
+/// Pairs of two columns of the elements in the sample.
+typedef struct pairs {
+    double first[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], second[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS];
+    size_t count;
+} pairs;
 
-static relation relate(const finding *f, const char *first, const char *second, double low, double high)
+static void take_pairs(const finding *f, const char *first, const char *second, double low, double high, pairs *p)
 {
-    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        const double mean_x = pass ? x / n : 0, mean_y = pass ? y / n : 0;
-        for (size_t row = 0; row < f->cuts->rows; row++) {
-            const double a = get(f->cuts, row, first), b = get(f->cuts, row, second);
-            if (!is_of(f->cuts, row, ALL) || !isfinite(a) || !isfinite(b) || a < low || a > high) continue;
-            n += !pass;
-            x += pass ? 0 : a;
-            y += pass ? 0 : b;
-            xx += (a - mean_x) * (a - mean_x) * pass;
-            yy += (b - mean_y) * (b - mean_y) * pass;
-            xy += (a - mean_x) * (b - mean_y) * pass;
-        }
+    p->count = 0;
+    for (size_t row = 0; row < f->cuts->rows; row++) {
+        const double a = get(f->cuts, row, first), b = get(f->cuts, row, second);
+        if (!is_of(f->cuts, row, ALL) || !isfinite(a) || !isfinite(b) || a < low || a > high) continue;
+        p->first[p->count] = a;
+        p->second[p->count++] = b;
     }
-    return (relation){n > 2 ? xy / sqrt(xx * yy) : NAN, n > 2 ? xy / xx : NAN};
+}
+
+/// Ranks, equal values sharing theirs.
+static void rank(const double *value, size_t count, double *of)
+{
+    for (size_t i = 0; i < count; i++) {
+        of[i] = 0;
+        for (size_t k = 0; k < count; k++) of[i] += value[k] < value[i] ? 1 : value[k] == value[i] ? 0.5 : 0;
+    }
+}
+
+/// Pearson's coefficient, and the slope of the second over the first.
+static double relate(const double *x, const double *y, size_t count, double *slope)
+{
+    double mean_x = 0, mean_y = 0, xx = 0, yy = 0, xy = 0;
+    for (size_t k = 0; k < count; k++) {
+        mean_x += x[k] / (double)count;
+        mean_y += y[k] / (double)count;
+    }
+    for (size_t k = 0; k < count; k++) {
+        xx += (x[k] - mean_x) * (x[k] - mean_x);
+        yy += (y[k] - mean_y) * (y[k] - mean_y);
+        xy += (x[k] - mean_x) * (y[k] - mean_y);
+    }
+    *slope = count > 2 ? xy / xx : NAN;
+    return count > 2 ? xy / sqrt(xx * yy) : NAN;
+}
+
+static double slope_between(const finding *f, const char *first, const char *second, double low, double high)
+{
+    pairs p;
+    double slope;
+    take_pairs(f, first, second, low, high, &p);
+    (void)relate(p.first, p.second, p.count, &slope);
+    return slope;
+}
+
+static double rank_correlation(const finding *f, const char *first, const char *second)
+{
+    double x[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], y[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], slope;
+    pairs p;
+    take_pairs(f, first, second, -INFINITY, INFINITY, &p);
+    rank(p.first, p.count, x);
+    rank(p.second, p.count, y);
+    return relate(x, y, p.count, &slope);
 }
 
 // ---- states ------------------------------------------------------------------------------------------------------
@@ -287,20 +324,19 @@ static void find_constants(finding *f)
                                           {"fabric_trace_inside", "bulk_modulus_inside"},
                                           {"fabric_trace_inside", "volume_fraction_inside"}};
     for (size_t k = 0; k < sizeof constant / sizeof *constant; k++) {
-        const double core = median(f, CORE_OF, constant[k], NULL);
+        const double core = median(f, CORE_OF, constant[k]);
         give(f, core);
-        give(f, core / median(f, FLANK_OF, constant[k], NULL));
-        give(f, core / median(f, UPPER_CORE, constant[k], NULL));
+        give(f, core / median(f, FLANK_OF, constant[k]));
+        give(f, core / median(f, UPPER_CORE, constant[k]));
     }
-    for (size_t k = 0; k < sizeof pair / sizeof *pair; k++)
-        give(f, relate(f, pair[k][0], pair[k][1], -INFINITY, INFINITY).coefficient);
-    give(f, median(f, CORE_OF, "elastic_misfit", NULL));
+    for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) give(f, rank_correlation(f, pair[k][0], pair[k][1]));
+    give(f, median(f, CORE_OF, "elastic_misfit"));
     // Of strains of both signs the smaller ones are those that are nearer to zero.
-    const double middle = median(f, ALL, "strain_trace", NULL);
-    const relation below = relate(f, "strain_trace", "stress_change_trace", -INFINITY, middle);
-    const relation above = relate(f, "strain_trace", "stress_change_trace", middle, INFINITY);
-    give(f, middle > 0 ? below.slope : above.slope);
-    give(f, middle > 0 ? above.slope : below.slope);
+    const double middle = median(f, ALL, "strain_trace");
+    const double below = slope_between(f, "strain_trace", "stress_change_trace", -INFINITY, middle);
+    const double above = slope_between(f, "strain_trace", "stress_change_trace", middle, INFINITY);
+    give(f, middle > 0 ? below : above);
+    give(f, middle > 0 ? above : below);
 }
 
 /// Mean direction of axes of a region [degree], by their doubled angles.
@@ -341,8 +377,8 @@ static void find_fabric(finding *f)
     }
     give(f, both * (double)sample->counted / (solid * contacts));
     give(f, scree_average_fabric_factor(sample));
-    give(f, median(f, CORE_OF, "fabric_deviator", "fabric_trace"));
-    give(f, median(f, FLANK_OF, "fabric_deviator", "fabric_trace"));
+    give(f, median(f, CORE_OF, "fabric_anisotropy"));
+    give(f, median(f, FLANK_OF, "fabric_anisotropy"));
     give(f, direction(f, LEFT, "fabric_angle"));
     give(f, direction(f, RIGHT, "fabric_angle"));
     give(f, between(f, "fabric_angle", "pressure_angle"));

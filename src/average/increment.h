@@ -4,9 +4,10 @@
 /// Both states are looked at along the same cuts, those of the earlier one. Of their elements those count of which at
 /// least half lies inside the sample (`inside`). Regions of the lowest cut, by the place along it: the core within 1/4
 /// of the half width, the flanks from 1/2 on; the upper core is that of the cuts at relative heights from 1/2 on.
-/// Numbers of a region are medians over its elements. A correlation is Pearson's coefficient over all elements of all
-/// cuts, once of whole elements (as R) and once of their parts inside the sample (`_inside`): whole elements that reach
-/// out of the surface hold less stress and less fabric alike, so that a part of the first is geometry.
+/// Numbers of a region are medians over its elements. A correlation is that of the ranks (Spearman) over all elements
+/// of all cuts, since constants of single elements near the surface are wild, once of whole elements (as R) and once of
+/// their parts inside the sample (`_inside`): whole elements that reach out of the surface hold less stress and less
+/// fabric alike, so that a part of the first is geometry.
 ///
 /// Source: P. Roul, PhD thesis, Magdeburg 2009, 2.6.2, 3.6 - 3.10. Units: SI. Cost: that of two tables of cuts.
 #ifndef SCREE_AVERAGE_INCREMENT_H

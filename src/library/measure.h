@@ -68,6 +68,11 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
 /// Draws it. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
 
+/// Draws elements as points in the plane of two of their numbers, where there are elastic constants. Errors:
+/// SCREE_ERROR_IO; memory.
+scree_status measure_draw_clouds(const char *folder, const measure_plan *plan, const measure_found *found,
+                                 scree_error *error);
+
 /// Draws the network of a plane sample and its chains. linked: a contact, 1 where it is a link of a chain. Errors:
 /// SCREE_ERROR_IO; memory.
 scree_status measure_draw_network(const char *folder, const scree_average_sample *sample, const uint8_t *linked,

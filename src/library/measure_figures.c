@@ -41,10 +41,15 @@ static const cut_figure cut_figures[] = {
      "volume fraction of the part inside", 1},
     {"cuts-coordination", "coordination", "Contacts by height", "contacts per grain", 1},
     {"cuts-fabric", "fabric_trace", "Trace of the fabric tensor by height", "tr F", 1},
+    {"cuts-fabric-anisotropy", "fabric_anisotropy", "Anisotropy of the fabric tensor by height", "deviator / trace", 1},
     {"cuts-fabric-angle", "fabric_angle", "Major axis of the fabric tensor by height", "angle (degrees)", 1},
     {"cuts-long-axis", "long_axis_angle", "Long axis of the mean inertia tensor by height", "angle (degrees)", 1},
     {"cuts-velocity", "velocity_x", "Horizontal velocity by height", "velocity x (m/s)", 1},
     {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "vertical strain, compression positive", -1},
+    {"cuts-bulk-modulus", "bulk_modulus", "Bulk modulus by height", "K (MPa)", 1e-6},
+    {"cuts-shear-modulus", "shear_modulus", "Shear modulus by height", "G (MPa)", 1e-6},
+    {"cuts-young-modulus", "young_modulus", "Young's modulus by height", "E (MPa)", 1e-6},
+    {"cuts-poisson-ratio", "poisson_ratio", "Poisson's ratio by height", "nu", 1},
 };
 
 /// The column of a figure; up is y in 2D and z in 3D.
@@ -144,6 +149,7 @@ static const map_figure map_figures[] = {
      NULL},
     {MEASURE_MAP, "map-strain-vertical", "bagi_yy", "Vertical strain (cells), compression positive", "strain", -1,
      SCREE_COLOUR_DIVERGING, NULL},
+    {MEASURE_MAP, "map-bulk-modulus", "bulk_modulus_inside", "Bulk modulus inside", "K (MPa)", 1e-6, SEQUENTIAL, NULL},
     {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
      NULL},
     {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "vertical pressure (kPa)",
@@ -327,5 +333,6 @@ scree_status measure_draw(const char *folder, const measure_plan *plan, const me
         status = draw_map(folder, found, &map_figures[k], error);
     if (!status) status = draw_distribution(folder, found, error);
     if (!status) status = draw_friction(folder, found, error);
-    return status ? status : draw_rose(folder, found, error);
+    if (!status) status = draw_rose(folder, found, error);
+    return status ? status : measure_draw_clouds(folder, plan, found, error);
 }
