@@ -60,8 +60,9 @@ const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
     AGAINST("bulk_modulus_inside", "the bulk modulus, both of the part inside,"),
     AGAINST("density_inside", "the volume fraction, both of the part inside,"),
     {"elastic_misfit_core", "1", "what an isotropic law leaves of the change of stress, in the core"},
-    {"invariant_slope_small", "Pa", "change of the trace of stress with that of strain, smaller half of the strains"},
-    {"invariant_slope_large", "Pa", "the same of the larger half"},
+    {"invariant_ratio_small", "Pa",
+     "trace of the change of stress over that of the strain, half of the elements whose stress changes least"},
+    {"invariant_ratio_large", "Pa", "the same of the other half"},
     {"fabric_factor", "1", "trace of the fabric tensor over volume fraction and coordination number"},
     {"fabric_factor_theory", "1", "the same as Madadi et al. 2004 predict it from the sizes of the grains"},
     {"fabric_anisotropy_core", "1", "deviator over trace of the fabric tensor in the core"},
@@ -160,8 +161,8 @@ static void rank(const double *value, size_t count, double *of)
     }
 }
 
-/// Pearson's coefficient, and the slope of the second over the first.
-static double relate(const double *x, const double *y, size_t count, double *slope)
+/// Pearson's coefficient.
+static double relate(const double *x, const double *y, size_t count)
 {
     double mean_x = 0, mean_y = 0, xx = 0, yy = 0, xy = 0;
     for (size_t k = 0; k < count; k++) {
@@ -173,27 +174,30 @@ static double relate(const double *x, const double *y, size_t count, double *slo
         yy += (y[k] - mean_y) * (y[k] - mean_y);
         xy += (x[k] - mean_x) * (y[k] - mean_y);
     }
-    *slope = count > 2 ? xy / xx : NAN;
     return count > 2 ? xy / sqrt(xx * yy) : NAN;
 }
 
-static double slope_between(const finding *f, const char *first, const char *second, double low, double high)
+/// Sum of the traces of the change of stress over that of the strains, of elements whose change lies between limits.
+static double secant(const finding *f, double low, double high)
 {
     pairs p;
-    double slope;
-    take_pairs(f, first, second, low, high, &p);
-    (void)relate(p.first, p.second, p.count, &slope);
-    return slope;
+    double stress = 0, strain = 0;
+    take_pairs(f, "stress_change_trace", "strain_trace", low, high, &p);
+    for (size_t k = 0; k < p.count; k++) {
+        stress += p.first[k];
+        strain += p.second[k];
+    }
+    return stress / strain;
 }
 
 static double rank_correlation(const finding *f, const char *first, const char *second)
 {
-    double x[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], y[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], slope;
+    double x[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], y[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS];
     pairs p;
     take_pairs(f, first, second, -INFINITY, INFINITY, &p);
     rank(p.first, p.count, x);
     rank(p.second, p.count, y);
-    return relate(x, y, p.count, &slope);
+    return relate(x, y, p.count);
 }
 
 // ---- states ------------------------------------------------------------------------------------------------------
@@ -331,10 +335,8 @@ static void find_constants(finding *f)
     }
     for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) give(f, rank_correlation(f, pair[k][0], pair[k][1]));
     give(f, median(f, CORE_OF, "elastic_misfit"));
-    // Of strains of both signs the smaller ones are those that are nearer to zero.
-    const double middle = median(f, ALL, "strain_trace");
-    const double below = slope_between(f, "strain_trace", "stress_change_trace", -INFINITY, middle);
-    const double above = slope_between(f, "strain_trace", "stress_change_trace", middle, INFINITY);
+    const double middle = median(f, ALL, "stress_change_trace");
+    const double below = secant(f, -INFINITY, middle), above = secant(f, middle, INFINITY);
     give(f, middle > 0 ? below : above);
     give(f, middle > 0 ? above : below);
 }

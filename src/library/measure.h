@@ -45,8 +45,9 @@ typedef struct measure_tables {
 typedef struct measure_found {
     size_t runs;
     measure_tables mean, low, high;
-    scree_average_dip *dip; ///< a cut; NULL: no stress along cuts
-    double dip_height;      ///< 1, relative height above which no dip is significant; NAN with one run
+    scree_average_dip *dip;        ///< a cut; NULL: no stress along cuts
+    scree_average_dip *strain_dip; ///< the same of the vertical strain; NULL: no elastic constants
+    double dip_height;             ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;
 
 /// Reads the options. Errors: SCREE_ERROR_INPUT with the option as field.

@@ -3,6 +3,7 @@
 #include "average_fixture.h"
 
 #include "average/elastic.h"
+#include "average/elastic_ensemble.h"
 #include "average/increment.h"
 #include "average/kernel_strain.h"
 
@@ -200,6 +201,63 @@ static void spheres_on_a_cubic_lattice(void **state)
     scree_average_table_destroy(&table);
 }
 
+// ---- ensembles -----------------------------------------------------------------------------------------------------
+
+static void take(void *user, const char *name, const char *unit, double value)
+{
+    scree_average_table_take(user, name, unit, value);
+}
+
+/// Samples with the same moduli and strains of both signs that nearly cancel in one of them: the constants of an
+/// ensemble are those of the mean fields, with a band of no width where all agree; a wild sample moves the mean of
+/// quotients and not them.
+static void constants_of_an_ensemble_are_those_of_its_mean_fields(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 6 };
+    scree_average_table table[SAMPLES], mean, low, high;
+    scree_error error;
+    scree_average_sample sample = average_begin(2);
+    double stress[9], gradient[SCREE_AVERAGE_STRAINS][9], sum = 0;
+    for (size_t k = 0; k < SAMPLES; k++) {
+        table[k] = (scree_average_table){0};
+        make_fields(2, 3e6, 2e6, 700 * (k + 1), stress, gradient[0]);
+        // The trace of the strain of one sample is 1e-7, while its stress is off by some noise.
+        if (k == 2) {
+            gradient[0][4] = 1e-7 - gradient[0][0];
+            stress[0] += 10;
+            stress[4] += 10;
+        }
+        for (int d = 1; d < SCREE_AVERAGE_STRAINS; d++) memcpy(gradient[d], gradient[0], sizeof gradient[0]);
+        scree_average_value value = {.volume = 4, .inside = 0.5};
+        for (int i = 0; i < 9; i++) value.centres.change[i] = stress[i] * value.volume * sample.thickness;
+        check(scree_average_table_begin_row(&table[k], &error), &error);
+        take(&table[k], "inside", "1", value.inside);
+        scree_average_strain_tell(2, (double[3]){0}, gradient, take, &table[k]);
+        scree_average_elastic_tell(&sample, &value, gradient, take, &table[k]);
+        check(scree_average_table_end_row(&table[k], &error), &error);
+        sum += column(&table[k], "bulk_modulus") / SAMPLES;
+    }
+    check(scree_average_table_mean(table, SAMPLES, &mean, &low, &high, &error), &error);
+    near(column(&mean, "bulk_modulus"), sum, 1e-9 * fabs(sum));
+    assert_true(fabs(sum - 3e6) > 6e6); // wild
+    check(scree_average_elastic_ensemble(table, SAMPLES, &mean, &low, &high, &error), &error);
+    double change = 0, strain = 0;
+    change += column(&mean, "stress_change_xx") + column(&mean, "stress_change_yy");
+    strain += column(&mean, "cundall_xx") + column(&mean, "cundall_yy");
+    near(column(&mean, "bulk_modulus"), 0.5 * change / strain, 1e-3);
+    near(column(&mean, "bulk_modulus"), 3e6, 1e6);
+    near(column(&mean, "bulk_modulus_inside"), 2 * column(&mean, "bulk_modulus"), 1e-3);
+    near(column(&mean, "bulk_modulus_bagi"), column(&mean, "bulk_modulus"), 1e-3);
+    assert_true(column(&low, "bulk_modulus") <= column(&mean, "bulk_modulus"));
+    assert_true(column(&high, "bulk_modulus") >= column(&mean, "bulk_modulus"));
+    for (size_t k = 0; k < SAMPLES; k++) scree_average_table_destroy(&table[k]);
+    scree_average_table_destroy(&mean);
+    scree_average_table_destroy(&low);
+    scree_average_table_destroy(&high);
+    scree_average_sample_destroy(&sample);
+}
+
 // ---- smooth strains ----------------------------------------------------------------------------------------------
 
 /// An affine motion of any size is found at all points, at the edges of the sample too.
@@ -324,6 +382,7 @@ int main(void)
         cmocka_unit_test(the_fit_is_of_least_squares),
         cmocka_unit_test(discs_on_a_triangular_lattice),
         cmocka_unit_test(spheres_on_a_cubic_lattice),
+        cmocka_unit_test(constants_of_an_ensemble_are_those_of_its_mean_fields),
         cmocka_unit_test(smooth_strains_are_exact_for_affine_motion),
         cmocka_unit_test(sizes_predict_the_fabric),
         cmocka_unit_test(two_states_of_a_lattice),
