@@ -95,7 +95,7 @@ static double get(const scree_average_table *table, size_t row, const char *name
     return column == SIZE_MAX ? NAN : scree_average_table_get(table, row, column);
 }
 
-typedef enum region { LOWEST, CORE_OF, FLANK_OF, LEFT, RIGHT, UPPER_CORE, INNER, OUTER, ALL } region;
+typedef enum region { LOWEST, CORE_OF, FLANK_OF, LEFT, RIGHT, UPPER_CORE, OUTER, ALL } region;
 
 static bool is_of(const scree_average_table *table, size_t row, region where)
 {
@@ -115,10 +115,8 @@ static bool is_of(const scree_average_table *table, size_t row, region where)
         return lowest && place <= -FLANK;
     case RIGHT:
         return lowest && place >= FLANK;
-    case INNER:
-        return lowest && fabs(place) <= FLANK;
     case OUTER:
-        return lowest && fabs(place) > FLANK;
+        return lowest && fabs(place) > CORE;
     case UPPER_CORE:
         return get(table, row, "height") >= UPPER && fabs(place) <= CORE;
     }
@@ -308,7 +306,7 @@ static scree_status find_strains(finding *f, scree_error *error)
     give(f, deviation(f, SCREE_AVERAGE_CAMBOU, LOWEST));
     give(f, deviation(f, SCREE_AVERAGE_LIAO, LOWEST));
     give(f, deviation(f, SCREE_AVERAGE_BAGI, LOWEST));
-    give(f, deviation(f, SCREE_AVERAGE_DIFFERENCE, INNER));
+    give(f, deviation(f, SCREE_AVERAGE_DIFFERENCE, CORE_OF));
     give(f, deviation(f, SCREE_AVERAGE_DIFFERENCE, OUTER));
     return status;
 }

@@ -145,7 +145,9 @@ static scree_status measure_view(scree_average_sample *before, scree_average_sam
     if (!status) tell_whole(view, values);
     if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
     if (!status) status = tell_chains(sample, plan, values, error);
-    if (!status) status = tell_increments(before, sample, view->grains, values, error);
+    if (!status)
+        status = tell_increments(before, sample, plan->average.grains > 0 ? plan->average.grains : view->grains, values,
+                                 error);
     if (!status && plan->kernel) status = measure_kernel(before, sample, view, plan, tables, error);
     if (!status) status = scree_average_table_end_row(values, error);
     if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);
