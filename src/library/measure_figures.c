@@ -163,6 +163,8 @@ static const map_figure map_figures[] = {
      NULL},
     {MEASURE_MAP, "map-strain-vertical", "bagi_yy", "Vertical strain (cells), compression positive", "strain", -1,
      SCREE_COLOUR_DIVERGING, NULL},
+    {MEASURE_MAP, "map-displacement", "displacement_y", "Displacement in y since the earlier state",
+     "displacement (um)", 1e6, SCREE_COLOUR_DIVERGING, NULL},
     {MEASURE_MAP, "map-bulk-modulus", "bulk_modulus_inside", "Bulk modulus inside", "K (MPa)", 1e-6, SEQUENTIAL, NULL},
     {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
      NULL},
