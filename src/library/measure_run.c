@@ -160,7 +160,8 @@ static scree_status measure_view(scree_average_sample *before, scree_average_sam
 }
 
 /// What a reader has to know of the run before he believes its averages.
-static void warn(const char *directory, const measure_plan *plan, const scree_average_view *view)
+static void warn(const char *directory, const measure_plan *plan, const scree_average_sample *before,
+                 const scree_average_view *view)
 {
     const scree_average_sample *sample = view->sample;
     if (view->grains < MEASURE_FEW)
@@ -171,6 +172,12 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
                     "force (averages of stress miss what moves the grains)",
                     directory, sample->unbalanced_ratio);
+    if (before->own && !(before->unbalanced_ratio < MEASURE_AT_REST))
+        measure_say(
+            plan,
+            "warning: %s: the earlier state was not at rest, by %.3g of the mean contact force: what has changed "
+            "is not elastic",
+            directory, before->unbalanced_ratio);
 }
 
 /// Moves the grains from where they were in the snapshot `from`, if any, which `before` then is.
@@ -206,7 +213,7 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
     if (!status) {
         if (first && frame) *frame = view.frame;
-        if (first) warn(directory, plan, &view);
+        if (first) warn(directory, plan, &before, &view);
         status = measure_view(&before, &sample, &view, &own, tables, error);
         scree_average_view_close(&view);
     }

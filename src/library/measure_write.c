@@ -76,6 +76,12 @@ static void set_warnings(scree_summary *summary, const scree_average_table *valu
         const size_t used = strlen(text);
         (void)snprintf(text + used, sizeof text - used, "%snot at rest, unbalanced ratio %.3g", used ? "; " : "", rest);
     }
+    const size_t earlier = scree_average_table_find(values, "earlier_unbalanced");
+    if (earlier != SIZE_MAX && !(values->value[earlier] < MEASURE_AT_REST)) {
+        const size_t used = strlen(text);
+        (void)snprintf(text + used, sizeof text - used, "%sthe earlier state not at rest, unbalanced ratio %.3g",
+                       used ? "; " : "", values->value[earlier]);
+    }
     scree_summary_set_text(summary, "warnings", text);
 }
 

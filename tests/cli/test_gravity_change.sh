@@ -49,6 +49,8 @@ checks=$((checks + 1))
 head -1 both/cuts.csv | grep -q 'bulk_modulus_low \[Pa\],bulk_modulus_high \[Pa\]' || complain "bands"
 expect 0 '^[01](\.|$)' "$scree" get both strain_dip_p
 
+expect 0 'warning: .*earlier state was not at rest' "$scree" measure run320 --fields elastic --from '#12' --no-figures -o moving
+expect 0 'the earlier state not at rest' "$scree" get moving warnings
 expect 2 '--fields: .*two states.*--from' "$scree" measure run320 --fields elastic
 expect 2 'measure.compare_with: .*stage .*stettle.*settle' "$scree" check change.yaml --set measure.compare_with=stettle
 finish
