@@ -22,12 +22,11 @@ typedef struct scree_measure_options {
     const char *kernel;  ///< "15 mm", radius of the support of smooth fields, or "3", in mean diameters
     const char *at; ///< "start", "end", "#12", a snapshot, the name of a stage, "10 %" of axial strain; "mean:STAGE" or
                     ///< "mean:10", mean over its snapshots, or over the last ones
-    const char *from;     ///< the same but for means: displacements and strains from there on
-    const char *response; ///< the same as `from`: stresses are those at `at` less those then, contact by contact
-    const char *axis;     ///< "mass", "apex", or a place, "0 mm"
-    long points;          ///< places along a cut
-    int threads;          ///< for smooth fields
-    const char *output;   ///< folder; "measure" in that of the run, or where it is called with several runs
+    const char *from;   ///< the same but for means: displacements and strains from there on
+    const char *axis;   ///< "mass", "apex", or a place, "0 mm"
+    long points;        ///< places along a cut
+    int threads;        ///< for smooth fields
+    const char *output; ///< folder; "measure" in that of the run, or where it is called with several runs
     bool no_figures;
     void (*message)(void *user, const char *line); ///< what was found, line by line; may be NULL
     void *user;

@@ -153,53 +153,6 @@ static size_t place_of(const scree_average_sample *sample, uint32_t id)
     return low < sample->bodies && sample->grain[low].id == id ? low : SIZE_MAX;
 }
 
-/// Subtracts what acted before, in the directions of before.
-static void subtract(scree_average_contact *now, const scree_average_contact *then, double sign)
-{
-    double along = 0, square = 0;
-    for (int i = 0; i < 3; i++) now->force[i] -= sign * then->force[i];
-    for (int i = 0; i < 3; i++) along += now->force[i] * now->normal[i], square += now->force[i] * now->force[i];
-    now->normal_force = along;
-    now->tangential_force = sqrt(fmax(0, square - along * along));
-}
-
-/// Appends what has been lost, reversed.
-static bool append_lost(scree_average_sample *sample, const scree_average_sample *before, const known *lost)
-{
-    scree_average_contact c = before->contact[lost->place];
-    const size_t first = place_of(sample, before->grain[c.first].id);
-    const size_t second =
-        c.second == SCREE_AVERAGE_OUTSIDE ? SCREE_AVERAGE_OUTSIDE : place_of(sample, before->grain[c.second].id);
-    if (first == SIZE_MAX || second == SIZE_MAX) return false;
-    c.first = (uint32_t)first;
-    c.second = (uint32_t)second;
-    c.normal_force = -c.normal_force;
-    c.tangential_force = -c.tangential_force;
-    for (int i = 0; i < 3; i++) c.force[i] = -c.force[i];
-    sample->contact[sample->contacts++] = c;
-    return true;
-}
-
-scree_status scree_average_respond(scree_average_sample *sample, const scree_average_sample *before, scree_error *error)
-{
-    pairing p;
-    scree_status status = pair_up(before, sample, &p, error);
-    if (!status)
-        status = scree_reallocate(&sample->contact, sample->contacts, sample->contacts + p.before_count + 1,
-                                  sizeof *sample->contact, error);
-    for (size_t k = 0; k < p.after_count && !status; k++) {
-        known *same = find(p.before, p.before_count, &p.after[k]);
-        if (!same) continue;
-        same->met = true;
-        subtract(&sample->contact[p.after[k].place], &before->contact[same->place], same->sign * p.after[k].sign);
-    }
-    for (size_t k = 0; k < p.before_count && !status; k++)
-        if (!p.before[k].met) (void)append_lost(sample, before, &p.before[k]);
-    memset(sample->gravity, 0, sizeof sample->gravity);
-    forget(&p);
-    return status;
-}
-
 double scree_response_order(const scree_average_sample *sample, bool normals)
 {
     double sum = 0, order = 0;

@@ -47,13 +47,6 @@ typedef struct scree_response_changes {
 scree_status scree_response_compare(const scree_average_sample *before, const scree_average_sample *after,
                                     scree_response_changes *changes, scree_error *error) SCREE_MUST_USE;
 
-/// Makes the loaded sample one of the response, for fields over elements: the force of each contact becomes its change;
-/// contacts that are lost are there with what they have lost; there is no gravity. Places are those of the loaded
-/// sample: what the unloaded forces gain where branches turn is left out, a share of the strain. To be called before
-/// scree_average_sample_finish. Errors: memory.
-scree_status scree_average_respond(scree_average_sample *sample, const scree_average_sample *before,
-                                   scree_error *error) SCREE_MUST_USE;
-
 /// Re sum |f| exp(6 i angle) / sum |f| over the contacts of two grains: 1 where all forces point along multiples of 60
 /// degrees, 0 without an order. normals: of normal forces alone, the order of the contacts.
 double scree_response_order(const scree_average_sample *sample, bool normals);

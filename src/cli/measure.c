@@ -22,7 +22,6 @@ scree_status scree_verb_measure(const scree_command *command)
                                      .kernel = scree_command_value(command, "kernel"),
                                      .at = scree_command_value(command, "at"),
                                      .from = scree_command_value(command, "from"),
-                                     .response = scree_command_value(command, "response"),
                                      .axis = scree_command_value(command, "axis"),
                                      .output = scree_command_value(command, "output"),
                                      .no_figures = scree_command_has(command, "no-figures"),

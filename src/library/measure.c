@@ -50,14 +50,13 @@ static scree_status find_dips(const measure_tables *each, size_t count, const me
                               scree_error *error)
 {
     const scree_average_table *cuts = &each[0].of[MEASURE_CUTS];
-    const size_t cut_count = plan->average.cuts;
-    const size_t column = scree_average_table_find(cuts, plan->response ? "stress_yy" : "vertical_pressure_scaled");
+    const size_t cut_count = plan->average.cuts, column = scree_average_table_find(cuts, "vertical_pressure_scaled");
     double *profile;
     if (column == SIZE_MAX || isnan(scree_average_table_get(cuts, 0, column))) return SCREE_OK;
     scree_status status = scree_allocate(&profile, count * plan->average.points, sizeof *profile, error);
     if (!status) status = scree_allocate(&found->dip, cut_count, sizeof *found->dip, error);
     for (size_t k = 0; k < cut_count && !status; k++) {
-        take_profiles(each, count, plan, k, column, plan->response ? -1 : 1, profile);
+        take_profiles(each, count, plan, k, column, 1, profile);
         status = scree_average_dip_find(profile, count, plan->average.points, &found->dip[k], error);
     }
     found->dip_height = count > 1 ? 0 : NAN;

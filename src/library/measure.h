@@ -31,7 +31,6 @@ typedef struct measure_plan {
     double kernel_width;     ///< m, 0: kernel_diameters
     double kernel_diameters; ///< mean diameters
     const char *at, *from;
-    bool response; ///< what there is at `at` less what there was at `from`
     bool mean; ///< over all snapshots of the stage `at`
     int threads;
     const char *network; ///< folder that the network of one run is drawn into; NULL: it is not

@@ -218,7 +218,6 @@ static scree_status draw_distribution(const char *folder, const measure_found *f
     const size_t of[2] = {scree_average_table_find(table, "contacts"), scree_average_table_find(table, "bottom")};
     char path[PATH_MAX];
     size_t n = 0;
-    if (table->rows == 0) return SCREE_OK;
     while (n < table->rows && scree_average_table_get(table, n, 0) == 0) n++;
     double *x = take(table, from, 0, n, 0.5, error),
            *y[2] = {take(table, of[0], 0, n, 1, error), take(table, of[1], 0, n, 1, error)};
@@ -245,7 +244,6 @@ static scree_status draw_friction(const char *folder, const measure_found *found
 {
     const scree_average_table *table = &found->mean.of[MEASURE_FRICTION];
     char path[PATH_MAX];
-    if (table->rows == 0) return SCREE_OK;
     double *x = take(table, 1, 0, table->rows, 1, error), *y = take(table, 2, 0, table->rows, 1, error);
     scree_status status =
         x && y ? scree_path_join(path, sizeof path, folder, "friction-distribution", error) : SCREE_ERROR_IO;

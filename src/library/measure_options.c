@@ -129,18 +129,11 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
     if (plan->mean) plan->at += sizeof mean - 1;
     if (plan->mean && plan->from)
         return refuse(error, "from", "--at with one snapshot", "a mean over a stage has no displacements");
-    if (options->response && (plan->mean || plan->from))
-        return refuse(error, "response", "--at with one snapshot, without --from",
-                      "a response is that of one snapshot to another, and displacements go with it");
-    plan->response = options->response != NULL;
-    if (plan->response) plan->from = options->response;
     plan->average.points = 41;
     if (options->points != 0 && (options->points < 1 || options->points > 10001 || options->points % 2 == 0))
         return refuse(error, "points", "an odd number from 1 to 10001", "%ld places have no middle", options->points);
     if (options->points != 0) plan->average.points = (size_t)options->points;
-    scree_status status = read_fields(options->fields  ? options->fields
-                                      : plan->response ? "stress"
-                                                       : "density,coordination,stress,fabric",
+    scree_status status = read_fields(options->fields ? options->fields : "density,coordination,stress,fabric",
                                       &plan->average.fields, error);
     if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
     if (!status && options->element) status = read_element(options->element, &plan->average, error);

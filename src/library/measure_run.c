@@ -3,7 +3,6 @@
 
 #include "average/chains.h"
 #include "average/force_statistics.h"
-#include "average/response.h"
 #include "base/units.h"
 
 #include <math.h>
@@ -199,17 +198,16 @@ static scree_status measure_view(scree_average_sample *sample, const scree_avera
     scree_average_table *values = &tables->of[MEASURE_VALUES];
     scree_status status = scree_average_table_begin_row(values, error);
     if (!status) tell_whole(view, values);
-    const bool whole = !plan->response; // changes of forces have no such statistics
-    if (!status && whole) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
-    if (!status && whole) status = tell_chains(sample, plan, values, error);
+    if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
+    if (!status) status = tell_chains(sample, plan, values, error);
     if (!status && plan->kernel) status = measure_kernel(sample, view, plan, tables, error);
     if (!status) status = scree_average_table_end_row(values, error);
     if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);
     if (!status && plan->average.grid[0] > 0)
         status = scree_average_map_table(view, &plan->average, &tables->of[MEASURE_MAP], error);
-    if (!status && whole) status = scree_average_forces_table(sample, &tables->of[MEASURE_FORCES], error);
-    if (!status && whole) status = scree_average_friction_table(sample, &tables->of[MEASURE_FRICTION], error);
-    if (!status && whole) status = scree_average_rose_table(sample, &tables->of[MEASURE_ROSE], error);
+    if (!status) status = scree_average_forces_table(sample, &tables->of[MEASURE_FORCES], error);
+    if (!status) status = scree_average_friction_table(sample, &tables->of[MEASURE_FRICTION], error);
+    if (!status) status = scree_average_rose_table(sample, &tables->of[MEASURE_ROSE], error);
     return status;
 }
 
@@ -220,23 +218,22 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
     if (view->grains < MEASURE_FEW)
         measure_say(plan, "warning: %s: an element holds %.3g grains, fewer than %d: averages over it are noise",
                     directory, view->grains, MEASURE_FEW);
-    if (!plan->response && !(sample->unbalanced_ratio < MEASURE_AT_REST))
+    if (!(sample->unbalanced_ratio < MEASURE_AT_REST))
         measure_say(plan,
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
                     "force (averages of stress miss what moves the grains)",
                     directory, sample->unbalanced_ratio);
 }
 
-/// Moves the grains from where they were in the snapshot `from`, if any; for a response takes off what there was then.
-static scree_status move(const char *directory, const scree_snapshot_mark *from, bool response,
-                         scree_average_sample *sample, scree_error *error)
+/// Moves the grains from where they were in the snapshot `from`, if any.
+static scree_status move(const char *directory, const scree_snapshot_mark *from, scree_average_sample *sample,
+                         scree_error *error)
 {
     scree_average_sample before;
     if (!from) return SCREE_OK;
     scree_status status = scree_sample_read(directory, from->index, &before, error);
     if (status) return status;
     status = scree_average_move(sample, &before, error);
-    if (!status && response) status = scree_average_respond(sample, &before, error);
     scree_average_sample_destroy(&before);
     return status;
 }
@@ -252,7 +249,7 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     own.average.frame = first ? NULL : frame;
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
-    status = move(directory, from, plan->response, &sample, error);
+    status = move(directory, from, &sample, error);
     if (!status) status = scree_average_sample_finish(&sample, error);
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
