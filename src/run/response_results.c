@@ -184,7 +184,8 @@ static const scree_result results[] = {
     {"response_contacts", "1", "contacts of grains before the load"},
     {"response_made", "1", "contacts that there are with the load alone"},
     {"response_lost", "1", "contacts that there were before the load alone"},
-    {"response_sliding", "1", "contacts that slide with the load and did not before"},
+    {"response_sliding", "1",
+     "contacts whose friction is used up (to 0.1 %) in a snapshot under the load and was not before"},
     {"response_unchanged_force", "N", "largest load, of the snapshots, up to which no contact was made, lost or slid"},
     {"response_order", "1",
      "Re sum f exp(6 i angle) / sum f of the normal forces f between grains under load: 1 where all point along "
@@ -211,6 +212,8 @@ static const scree_result results[] = {
     {"response_misfit_smooth", "1", "the same of the layer on a smooth base"},
     {"response_misfit_bonded", "1", "the same of the layer bonded to its base"},
 };
+
+#define USED_UP 0.999 /* of the friction of a contact that slides, or is about to */
 
 /// What is needed while results are found.
 typedef struct finding {
@@ -259,13 +262,38 @@ static scree_status find_snapshots(finding *f, scree_error *error)
     return scree_error_set(error, SCREE_ERROR_INPUT, "there are no snapshots before and after the load");
 }
 
+/// Friction coefficient between two grains; between a grain and what is none it is taken to be that of two such grains.
+static double friction_of(const scree_simulation *s, uint32_t first, uint32_t second)
+{
+    const uint32_t one = scree_state_row_of(&s->state, first);
+    const uint32_t other = second == SCREE_AVERAGE_OUTSIDE ? one : scree_state_row_of(&s->state, second);
+    if (one == SCREE_NO_ROW || other == SCREE_NO_ROW) return NAN;
+    return s->stage_model.pairs[scree_body_material(&s->state, one)][scree_body_material(&s->state, other)]
+        .value[SCREE_FRICTION];
+}
+
+/// A snapshot; contacts slide where their friction is used up, whether they slip at this instant or not.
+static scree_status read_sample(const finding *f, size_t mark, scree_average_sample *sample, scree_error *error)
+{
+    scree_status status = scree_sample_read(f->run->directory, f->mark[mark].index, sample, error);
+    for (size_t k = 0; k < sample->contacts && !status; k++) {
+        scree_average_contact *c = &sample->contact[k];
+        const uint32_t first = sample->grain[c->first].id;
+        const uint32_t second =
+            c->second == SCREE_AVERAGE_OUTSIDE ? SCREE_AVERAGE_OUTSIDE : sample->grain[c->second].id;
+        const double limit = USED_UP * friction_of(f->run->s, first, second) * c->normal_force;
+        c->sliding = limit > 0 && fabs(c->tangential_force) >= limit;
+    }
+    return status;
+}
+
 static scree_status read_samples(finding *f, scree_error *error)
 {
     const scree_simulation *s = f->run->s;
     uint32_t row;
     scree_status status = find_loaded(&s->model, &s->state, f->n->load, &row, error);
-    if (!status) status = scree_sample_read(f->run->directory, f->mark[f->first].index, &f->before, error);
-    if (!status) status = scree_sample_read(f->run->directory, f->mark[f->count - 1].index, &f->after, error);
+    if (!status) status = read_sample(f, f->first, &f->before, error);
+    if (!status) status = read_sample(f, f->count - 1, &f->after, error);
     if (!status) status = scree_average_move(&f->after, &f->before, error);
     if (!status) status = scree_average_sample_finish(&f->before, error);
     if (!status) status = scree_average_sample_finish(&f->after, error);
@@ -278,21 +306,47 @@ static scree_status read_samples(finding *f, scree_error *error)
     return status;
 }
 
-/// Largest load of those snapshots before the first that has another contact.
-static scree_status find_unchanged(const finding *f, double *force, scree_error *error)
+/// Whether the contact of these bodies is known to have slid.
+static bool is_noted(const scree_response_changes *all, const scree_response_change *change)
 {
+    for (size_t k = 0; k < all->count; k++)
+        if (all->list[k].kind == SCREE_RESPONSE_SLIDING && all->list[k].first == change->first &&
+            all->list[k].second == change->second)
+            return true;
+    return false;
+}
+
+/// Adds the contacts that slid at an instant under the load to those that slide at the end.
+static scree_status add_sliding(finding *f, const scree_response_changes *now, scree_error *error)
+{
+    scree_response_changes *all = &f->changes;
+    const size_t room = all->count + now->sliding;
+    scree_status status = scree_reallocate(&all->list, all->count, room + 1, sizeof *all->list, error);
+    for (size_t k = 0; k < now->count && !status; k++) {
+        if (now->list[k].kind != SCREE_RESPONSE_SLIDING || is_noted(all, &now->list[k])) continue;
+        all->list[all->count++] = now->list[k];
+        all->sliding++;
+    }
+    return status;
+}
+
+/// Goes through the snapshots under load: what slid, and the largest load of those before the first that has another
+/// contact.
+static scree_status follow_load(finding *f, double *force, scree_error *error)
+{
+    bool unchanged = true;
     *force = 0;
     for (size_t k = f->first + 1; k < f->count; k++) {
         scree_average_sample sample;
-        scree_response_changes changes;
-        scree_status status = scree_sample_read(f->run->directory, f->mark[k].index, &sample, error);
+        scree_response_changes changes = {0};
+        scree_status status = read_sample(f, k, &sample, error);
         if (!status) status = scree_response_compare(&f->before, &sample, &changes, error);
+        if (!status) status = add_sliding(f, &changes, error);
         scree_average_sample_destroy(&sample);
-        if (status) return status;
-        const size_t changed = changes.count;
         scree_release(&changes.list);
-        if (changed > 0) return SCREE_OK;
-        *force = fmax(*force, force_at(f, f->mark[k].time));
+        if (status) return status;
+        unchanged = unchanged && changes.count == 0;
+        if (unchanged) *force = fmax(*force, force_at(f, f->mark[k].time));
     }
     return SCREE_OK;
 }
@@ -329,10 +383,10 @@ static void set_theories(const finding *f)
     }
 }
 
-static scree_status set_results(const finding *f, scree_error *error)
+static scree_status set_results(finding *f, scree_error *error)
 {
     double missing = 0, unchanged, contacts = 0;
-    scree_status status = find_unchanged(f, &unchanged, error);
+    scree_status status = follow_load(f, &unchanged, error);
     if (status) return status;
     for (int k = 0; k < SCREE_RESPONSE_LEVELS; k++) missing = fmax(missing, fabs(f->curves->level[k].missing));
     for (size_t c = 0; c < f->before.contacts; c++) contacts += f->before.grain[f->before.contact[c].first].counted;
