@@ -131,6 +131,13 @@ bool scree_wall_is_steady(const scree_config_wall *wall)
     return steady;
 }
 
+bool scree_wall_stands(const scree_config_wall *wall)
+{
+    bool stands = scree_wall_is_steady(wall);
+    for (int k = 0; k < 3; k++) stands = stands && wall->velocity[k].value == 0 && wall->spin[k] == 0;
+    return stands;
+}
+
 void scree_wall_velocity(const scree_config_wall *wall, double speed, double time, double step, double velocity[3])
 {
     double before[3];

@@ -38,6 +38,9 @@ void scree_wall_velocity(const scree_config_wall *wall, double speed, double tim
 /// Whether its velocity is the same at all times.
 bool scree_wall_is_steady(const scree_config_wall *wall);
 
+/// Whether it never moves.
+bool scree_wall_stands(const scree_config_wall *wall);
+
 /// A bound of its speed at all times, without its spin [m/s]; a servo's own limit, NAN: auto.
 double scree_wall_largest_speed(const scree_config_wall *wall);
 

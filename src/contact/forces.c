@@ -14,6 +14,7 @@
 #include "contact/laws.h"
 #include "contact/partition.h"
 #include "contact/reference.h"
+#include "contact/resting.h"
 #include "contact/surfaces.h"
 #include "state/persistent.h"
 #include "state/plates.h"
@@ -236,8 +237,8 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
+    contact_resting_loads(state, &job->scale, &totals);
     join_totals(state, &totals);
-
     scree_ghosts_add_back(state, work);
     return totals;
 }

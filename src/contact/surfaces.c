@@ -1,6 +1,7 @@
 /// Scalar, one body after the other. Cost: linear in the pairs of bodies and primitives.
 #include "contact/surfaces.h"
 #include "state/case_walls.h"
+#include "state/sleep.h"
 
 #include "base/fixed.h"
 #include "base/vectors.h"
@@ -270,23 +271,34 @@ static void pass_memory(group *g)
     }
 }
 
-/// Force and torque about the centre of the wall: the opposite of what the body gets, F at its centre and its torque.
-static void add_to_surface(contact_job *job, int surface, const scree_vector hub, const bodies *body,
-                           const contact_quanta *q, double quantum, double torque_quantum)
+void contact_surface_torque(const scree_state *state, const scree_vector hub, const bodies *body,
+                            const contact_quanta *q, scree_vector torque)
 {
-    const bool in_3d = job->variant.dimension == 3;
-    const double f[3] = {scree_fixed_to((int64_t)q->force.x, quantum), scree_fixed_to((int64_t)q->force.y, quantum),
-                         in_3d ? scree_fixed_to((int64_t)q->force.z, quantum) : 0};
+    const bool in_3d = state->dimension == 3;
+    const double f[3] = {scree_fixed_to((int64_t)q->force.x, state->force_quantum),
+                         scree_fixed_to((int64_t)q->force.y, state->force_quantum),
+                         in_3d ? scree_fixed_to((int64_t)q->force.z, state->force_quantum) : 0};
     const double lever[3] = {body->position.x - hub[0], body->position.y - hub[1],
                              in_3d ? body->position.z - hub[2] : 0};
     const int64_t couple[3] = {in_3d ? (int64_t)q->torque_first.x : 0, in_3d ? (int64_t)q->torque_first.y : 0,
                                (int64_t)(in_3d ? q->torque_first.z : q->torque_first.x)};
-    const uint64_t force[3] = {q->force.x, q->force.y, in_3d ? q->force.z : 0};
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-        double torque = lever[i] * f[j] - lever[j] * f[i] + scree_fixed_to(couple[k], torque_quantum);
+        torque[k] = lever[i] * f[j] - lever[j] * f[i] + scree_fixed_to(couple[k], state->torque_quantum);
+    }
+}
+
+/// Force and torque about the centre of the wall: the opposite of what the body gets, F at its centre and its torque.
+static void add_to_surface(contact_job *job, int surface, const scree_vector hub, const bodies *body,
+                           const contact_quanta *q, const scree_state *state)
+{
+    const uint64_t force[3] = {q->force.x, q->force.y, job->variant.dimension == 3 ? q->force.z : 0};
+    scree_vector torque;
+    contact_surface_torque(state, hub, body, q, torque);
+    for (int k = 0; k < 3; k++) {
         job->totals.surface_force[surface][k] -= force[k];
-        job->totals.surface_torque[surface][k] -= (uint64_t)scree_fixed_from(torque, job->scale.inverse_surface_torque);
+        job->totals.surface_torque[surface][k] -=
+            (uint64_t)scree_fixed_from(torque[k], job->scale.inverse_surface_torque);
     }
 }
 
@@ -300,6 +312,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         if (scree_wall_pair_law(g->pairs, p) != job->law) continue;
         if (!touch && memory_is_clear(&rows)) continue;
         const scree_surface *surface = contact_surface_of(g->wall_set, g->pairs->wall[p]);
+        if (scree_sleeps_on(state, row, surface->config)) continue;
         scree_closest_point left;
         if (!touch) scree_primitive_closest_point(g->wall_set, g->pairs->wall[p], g->position, &left);
         const scree_closest_point *closest = touch ? &touch->closest : &left;
@@ -318,9 +331,16 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touch != NULL, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
         if (v.moments) contact_add_moments(job, law_deforms(v), row, contact_branch_of(v, &m, true), q.straining);
-        add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state->force_quantum,
-                       state->torque_quantum);
+        add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state);
     }
+}
+
+/// Whether nothing of it changes: the body sleeps, and the walls stand.
+static bool rests(const scree_state *state, const group *g, size_t row)
+{
+    for (size_t p = g->begin; p < g->end; p++)
+        if (!scree_sleeps_on(state, row, contact_surface_of(g->wall_set, g->pairs->wall[p])->config)) return false;
+    return true;
 }
 
 static bool holds_memory(const group *g)
@@ -345,7 +365,7 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
     for (g.begin = 0; g.begin < g.pairs->count; g.begin = g.end) {
         g.end = contact_group_end(g.pairs, g.begin);
         size_t row = g.pairs->body[g.begin];
-        if (row < begin || row >= end) continue;
+        if (row < begin || row >= end || rests(state, &g, row)) continue;
         const bodies one = contact_body_at(job, row);
         contact_primitives_touching(g.wall_set, v.dimension, &one, g.pairs, g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;

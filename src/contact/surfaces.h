@@ -72,6 +72,10 @@ const scree_law_use *contact_surface_law(const scree_model *model, const scree_s
 kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
                                  const scree_closest_point *closest, bool moving, double step);
 
+/// Torque of a contact on its body about the centre of the wall [N m]: F at the centre of the body and its own torque.
+void contact_surface_torque(const scree_state *state, const scree_vector hub, const bodies *body,
+                            const contact_quanta *q, scree_vector torque);
+
 /// Contacts of bodies in rows [begin, end) with the walls of the case, those under the job's law: memory, sums, totals.
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end);
 

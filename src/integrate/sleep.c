@@ -15,7 +15,8 @@
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
-/// as whole numbers (state/sleep.h).
+/// as whole numbers (state/sleep.h). So is what walls that stand exert; what all that sleep exert on each of these is
+/// summed anew whenever some fall asleep or wake.
 ///
 /// An approximation: pushes below `wake` do not pass what sleeps, and motion below `force` and `motion` stops; momentum
 /// is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md. Cost: 2 ns a body
@@ -27,6 +28,7 @@
 #include "base/integer_sum.h"
 #include "case/config.h"
 #include "comm/comm.h"
+#include "contact/resting.h"
 #include "contact/settle.h"
 #include "contact/single.h"
 #include "integrate/integrate.h"
@@ -173,12 +175,11 @@ static void add(int64_t *units, uint64_t integer, double quantum, double unit, b
 }
 
 /// What a contact exerts on one of its bodies.
-static void add_to_one(scree_state *state, uint32_t row, const contact_evaluation *e, bool is_first, bool minus)
+static void add_to_one(scree_state *state, uint32_t row, const contact_quanta *q, bool is_first, bool minus)
 {
     const scree_sleep *sleep = scree_sleep_of(state);
     scree_resting *resting = &sleep->resting[row];
     const bool in_3d = state->dimension == 3;
-    const contact_quanta *q = &e->quanta;
     const quanta force = is_first ? q->force : quanta_opposite(q->force);
     const quanta torque = is_first ? q->torque_first : q->torque_second;
     const uint64_t forces[3] = {force.x, force.y, in_3d ? force.z : 0};
@@ -191,10 +192,10 @@ static void add_to_one(scree_state *state, uint32_t row, const contact_evaluatio
 }
 
 /// Dashpots are at rest among those that sleep.
-static void forget_dashpots(scree_pair_list *pairs, size_t p)
+static void forget_dashpots(const memory_rows *memory)
 {
-    if (pairs->last_force) pairs->last_force[p] = (scree_last_force){{0}};
-    if (pairs->rolling) memset(pairs->rolling[p].last, 0, sizeof pairs->rolling[p].last);
+    if (memory->last_force) *memory->last_force = (scree_last_force){{0}};
+    if (memory->rolling) memset(memory->rolling->last, 0, sizeof memory->rolling->last);
 }
 
 /// A pair of which one falls asleep beside one that sleeps, or wakes.
@@ -207,9 +208,9 @@ static void move_pair(const scree_context *c, size_t p, bool rests)
     const contact_body one = contact_body_get(state, first), other = contact_body_get(state, second);
     const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
     const contact_evaluation e = contact_evaluate_again(c->model, state, true, &one, &other, NULL, &memory);
-    add_to_one(state, first, &e, true, !rests);
-    add_to_one(state, second, &e, false, !rests);
-    if (rests) forget_dashpots(&work->pairs, p);
+    add_to_one(state, first, &e.quanta, true, !rests);
+    add_to_one(state, second, &e.quanta, false, !rests);
+    if (rests) forget_dashpots(&memory);
 }
 
 static bool slept(uint8_t mark)
@@ -230,6 +231,31 @@ static void move_pairs(const scree_context *c)
         const uint8_t one = mark[pairs->first[p]], other = mark[pairs->second[p]];
         const bool rested = slept(one) && slept(other), rests = will_sleep(one) && will_sleep(other);
         if (rested != rests) move_pair(c, p, rests);
+    }
+}
+
+/// The contacts with walls that stand, of one that falls asleep or wakes.
+static void move_group(const scree_context *c, const contact_wall_group *group, bool rests)
+{
+    contact_quanta exerted;
+    for (int k = 0; k < group->touches.count; k++) {
+        if (!contact_standing_wall(c->model, c->state, c->work, group, k, &exerted)) continue;
+        const memory_rows memory = contact_memory_of(c->work, CONTACT_ELEMENT, group->touches.touch[k].pair);
+        add_to_one(c->state, group->row, &exerted, true, !rests);
+        if (rests) forget_dashpots(&memory);
+    }
+}
+
+static void move_walls(const scree_context *c)
+{
+    const scree_wall_pair_list *pairs = &c->work->primitive_pairs;
+    const uint8_t *mark = scree_sleep_of(c->state)->asleep;
+    for (size_t begin = 0, end; begin < pairs->count; begin = end) {
+        end = contact_group_end(pairs, begin);
+        const uint8_t own = mark[pairs->body[begin]];
+        if (slept(own) == will_sleep(own)) continue;
+        const contact_wall_group group = contact_wall_group_at(c->state, c->work, begin);
+        move_group(c, &group, will_sleep(own));
     }
 }
 
@@ -296,11 +322,14 @@ static void change(const scree_context *c)
     if (!(sleep->force_unit > 0)) {
         sleep->force_unit = ldexp(state->force_quantum, 8);
         sleep->torque_unit = ldexp(state->torque_quantum, 8);
+        sleep->wall_torque_unit = ldexp(contact_surface_torque_quantum(c->model, state, c->work->wall_set), 8);
     }
     sleep->overlap = fmax(sleep->overlap, state->largest_overlap);
     begin_change(c);
     move_pairs(c);
+    move_walls(c);
     end_change(state);
+    contact_sum_resting_loads(c->model, state, c->work);
 }
 
 // ---- the pass -----------------------------------------------------------------------------------------------------
@@ -398,12 +427,18 @@ typedef scree_sleep own;
 #define ONE(member, type, components, unit, meaning, ...)                                                              \
     SCREE_FIELD_ONE(sleep, own, member, "sleep/" #member, type, components, unit, meaning, __VA_ARGS__)
 #define DERIVED(member, meaning) ONE(member, SCREE_FIELD_UINT64, 1, "1", meaning, .role = SCREE_FIELD_DERIVED)
+#define WALL(member, meaning)                                                                                          \
+    SCREE_FIELD_FIXED(sleep, own, wall, SCREE_SURFACES, scree_resting_load, member, "sleep/wall_" #member,             \
+                      SCREE_FIELD_INT64, 3, "1", meaning, SCREE_RANGE(-0x1p62, 0x1p62))
 static const scree_field fields[] = {
+    WALL(force, "of all that sleep on each wall of the case that stands, in units of sleep/force_unit"),
+    WALL(torque, "the same about its centre, in units of sleep/wall_torque_unit"),
     BODY(asleep, uint8_t, "asleep", SCREE_FIELD_UINT8, 1, "1", "1: the body sleeps", .snapshot = true,
          SCREE_RANGE(0, 1)),
     BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1", "steps for which it has been quiet"),
     BODY(resting, scree_resting, "resting", SCREE_FIELD_INT64, 7, "1",
-         "of a body that sleeps, from others that do: force in units of sleep/force_unit, torque in units of "
+         "of a body that sleeps, from others that do and walls that stand: force in units of sleep/force_unit, torque "
+         "in units of "
          "sleep/torque_unit, number of contacts",
          SCREE_RANGE(-0x1p62, 0x1p62)),
     BODY(push, double[6], "push", SCREE_FIELD_DOUBLE, 6, "1",
@@ -411,6 +446,7 @@ static const scree_field fields[] = {
     BODY(moving, uint32_t, "moving", SCREE_FIELD_UINT32, 1, "1", "rows that are awake", .role = SCREE_FIELD_DERIVED),
     ONE(force_unit, SCREE_FIELD_DOUBLE, 1, "N", "unit of what rests", SCREE_RANGE(0, DBL_MAX)),
     ONE(torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of its torques", SCREE_RANGE(0, DBL_MAX)),
+    ONE(wall_torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of the torques on walls", SCREE_RANGE(0, DBL_MAX)),
     ONE(gravity, SCREE_FIELD_DOUBLE, 3, "m/s2", "gravity of the last step in which bodies might sleep"),
     ONE(overlap, SCREE_FIELD_DOUBLE, 1, "m", "bound of the overlaps of those that sleep", SCREE_RANGE(0, DBL_MAX)),
     ONE(taken, SCREE_FIELD_DOUBLE, 1, "J", "kinetic energy of bodies when they fell asleep"),

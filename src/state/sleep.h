@@ -3,36 +3,45 @@
 /// decided in integrate/sleep.c.
 ///
 /// A body that sleeps has no velocity and does not move. Its contacts stay with what they remember. Those with bodies
-/// that are awake, and with walls, are evaluated in every step; what those with others that sleep exert on it does not
-/// change, and lies here.
+/// that are awake, and with walls that can move, are evaluated in every step; what those with others that sleep, and
+/// with walls of the case that stand, exert on it does not change, and lies here.
 #ifndef SCREE_STATE_SLEEP_H
 #define SCREE_STATE_SLEEP_H
 
+#include "case/wall_motion.h"
 #include "state/work.h"
 
-/// What the contacts of a body with others that sleep exert on it, while it sleeps. Whole numbers, so that it does not
-/// depend on the order in which bodies fall asleep; in units of their own, since quanta change from step to step.
+/// What the contacts of a body with others that sleep, and with walls that stand, exert on it, while it sleeps. Whole
+/// numbers, so that it does not depend on the order in which bodies fall asleep; in units of their own, since quanta
+/// change from step to step.
 typedef struct scree_resting {
     int64_t force[3], torque[3]; ///< units of force and of torque
     int64_t contacts;
 } scree_resting;
 
+/// What all that sleep exert on a wall that stands, about its centre.
+typedef struct scree_resting_load {
+    int64_t force[3], torque[3]; ///< units of force, and of torque on walls
+} scree_resting_load;
+
 /// State of the module `sleep`.
 typedef struct scree_sleep {
-    uint8_t *asleep;        ///< a body; NULL: no stage yet in which bodies may sleep
-    uint32_t *quiet;        ///< a body: steps for which it has been quiet
-    scree_resting *resting; ///< a body
-    double (*push)[6];      ///< a body: mean resultant of the last window over weight, force and torque over radius
-    double force_unit;      ///< N, a power of two
-    double torque_unit;     ///< N m, the same
-    double gravity[3];      ///< m/s2, of the last step
-    double overlap;         ///< m, no contact of two that sleep has a larger one
-    double taken;           ///< J, kinetic energy of bodies when they fell asleep
-    uint64_t awake_steps;   ///< steps of all bodies that were awake, since the first could sleep
-    uint64_t steps;         ///< steps since then
-    uint64_t count;         ///< bodies that sleep (derived)
-    uint64_t changes;       ///< times that some fell asleep or woke in this process (derived)
-    uint32_t *moving;       ///< rows of those that are awake; moving_count of them, where some sleep (derived)
+    scree_resting_load wall[SCREE_SURFACES]; ///< in the order of the case
+    double wall_torque_unit;                 ///< N m, a power of two
+    uint8_t *asleep;                         ///< a body; NULL: no stage yet in which bodies may sleep
+    uint32_t *quiet;                         ///< a body: steps for which it has been quiet
+    scree_resting *resting;                  ///< a body
+    double (*push)[6];    ///< a body: mean resultant of the last window over weight, force and torque over radius
+    double force_unit;    ///< N, a power of two
+    double torque_unit;   ///< N m, the same
+    double gravity[3];    ///< m/s2, of the last step
+    double overlap;       ///< m, no contact of two that sleep has a larger one
+    double taken;         ///< J, kinetic energy of bodies when they fell asleep
+    uint64_t awake_steps; ///< steps of all bodies that were awake, since the first could sleep
+    uint64_t steps;       ///< steps since then
+    uint64_t count;       ///< bodies that sleep (derived)
+    uint64_t changes;     ///< times that some fell asleep or woke in this process (derived)
+    uint32_t *moving;     ///< rows of those that are awake; moving_count of them, where some sleep (derived)
     uint64_t moving_count;
     uint64_t listed; ///< 1: it is of the list of pairs, and of these
     uint64_t bodies; ///< changes of the state, then (derived)
@@ -47,6 +56,12 @@ static inline bool scree_body_sleeps(const scree_state *state, size_t row)
 {
     const scree_sleep *sleep = scree_sleep_of(state);
     return sleep->count > 0 && (sleep->asleep[row] & 1); // even while one is marked (integrate/sleep.c)
+}
+
+/// Whether a body sleeps beside a wall of the case that stands: nothing of their contact changes.
+static inline bool scree_sleeps_on(const scree_state *state, size_t row, const scree_config_wall *wall)
+{
+    return scree_body_sleeps(state, row) && scree_wall_stands(wall);
 }
 
 /// Rows that move, and how many; NULL: the rows 0 .. count - 1.

@@ -7,6 +7,7 @@
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "state/births.h"
+#include "state/case_walls.h"
 #include "state/sleep.h"
 
 #define COUNT_OF(list) (sizeof(list) / sizeof *(list))
@@ -70,24 +71,38 @@ static size_t asleep(const scree_simulation *s)
 
 // ---- what rests ----------------------------------------------------------------------------------------------------
 
-/// Force on each body, by all of its contacts as measures see them.
-static void sum_table(scree_simulation *s, scree_vector *force)
+/// Force on each body, and on all walls together, by all contacts as measures see them.
+static void sum_table(scree_simulation *s, scree_vector *force, scree_vector walls)
 {
     scree_contact_table table = {0};
     scree_error error;
     check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
     check(scree_contact_table_build(&s->model, &s->state, &s->work, &table, &error), &error);
     memset(force, 0, s->state.count * sizeof *force);
+    memset(walls, 0, 3 * sizeof *walls);
     for (size_t k = 0; k < table.count; k++) {
         const scree_contact *contact = &table.contact[k];
         for (int i = 0; i < 3; i++) {
             const double f =
                 contact->normal_force * contact->normal[i] + contact->tangential_force * contact->tangent[i];
             force[contact->first][i] += f;
-            if (!contact->wall) force[contact->second][i] -= f;
+            *(contact->wall ? &walls[i] : &force[contact->second][i]) -= f;
         }
     }
     scree_contact_table_destroy(&table);
+}
+
+/// Largest difference of the forces on all walls from `table`, over the weight of all.
+static double beside_walls(const scree_simulation *s, const scree_vector table)
+{
+    double worst = 0, weight = 0;
+    for (size_t row = 0; row < s->state.count; row++) weight += 9.81 * scree_body_mass(&s->state, row);
+    for (int i = 0; i < 3 && asleep(s) > 0; i++) {
+        double sum = 0;
+        for (int w = 0; w < SCREE_SURFACES; w++) sum += scree_case_walls(&s->state)->load[w].force[i];
+        worst = fmax(worst, fabs(sum - table[i]) / weight);
+    }
+    return worst;
 }
 
 /// On each that sleeps the sums, what rests, and the weight are the contacts of the table and the weight: nothing is
@@ -98,12 +113,13 @@ static void what_rests_is_what_contacts_exert(void **unused)
     for (size_t t = 0; t < COUNT_OF(texts); t++) {
         scree_case *c;
         scree_simulation s = open_with(texts[t], NULL, 0, &c);
-        scree_vector all[32], force, torque;
+        scree_vector all[32], force, torque, walls;
         size_t seen = 0;
         double worst = 0;
         for (int k = 1; k <= 28; k++) {
             step_to(&s, 0.05 * k);
-            sum_table(&s, all);
+            sum_table(&s, all, walls);
+            worst = fmax(worst, beside_walls(&s, walls));
             for (size_t row = 0; row < s.state.count; row++) {
                 if (!scree_body_sleeps(&s.state, row)) continue;
                 const double weight = 9.81 * scree_body_mass(&s.state, row);
