@@ -42,7 +42,7 @@
     SCREE_SHAPES(row)                                                                                                  \
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(gear) row(drop_and_roll) row(hexagonal)          \
-        row(centred_rectangular) row(square) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth)       \
+        row(square) row(centred_rectangular) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth)       \
             row(dense) row(pair) row(bodies) row(empty) row(prepare) row(confine) row(compress) row(deform)            \
                 row(rotate_particle) row(relax) row(iterate) row(collide) row(bond) row(pour) row(point) row(line)     \
                     row(region) row(background_damping) row(prescribed) row(plane) row(box) row(cylinder) row(cone)    \

@@ -184,8 +184,9 @@ static scree_status place_centred(const scree_model *model, const scree_config_s
                                   scree_error *error)
 {
     const angled *own = scree_config_own(&scree_module_centred_rectangular, "stages.prepare", stage->own);
-    const lattice rows = {
-        {1, 1}, 4 * cos(own->angle), 2 * sin(own->angle), true, false, isnan(own->distance) ? 0 : own->distance};
+    const double angle = own && own->angle > 0 ? own->angle : M_PI / 3;
+    const double distance = own && own->distance > 0 ? own->distance : 0;
+    const lattice rows = {{1, 1}, 4 * cos(angle), 2 * sin(angle), true, false, distance};
     return place_lattice(model, stage, packing, rows, error);
 }
 
@@ -236,10 +237,10 @@ static const scree_keys centred_keys[] = {KEYS_OF("stages.prepare", angled_keys,
     }
 LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal, first_row_keys,
         1, .lattice = SCREE_LATTICE_HEXAGONAL + 1);
-LATTICE(centred_rectangular, "centred rectangular lattice of equal discs that touch those of the rows above and below",
-        2, "body_centred", place_centred, centred_keys, 1);
 LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright, NULL, 0,
         .lattice = SCREE_LATTICE_SQUARE + 1);
+LATTICE(centred_rectangular, "centred rectangular lattice of equal discs that touch those of the rows above and below",
+        2, "body_centred", place_centred, centred_keys, 1);
 LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
         "hexagonal", place_face_centred, NULL, 0, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
 LATTICE(body_centred, "body-centred cubic lattice of equal spheres that touch along the diagonals of its cells", 3,

@@ -97,13 +97,13 @@ typedef struct numbers {
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = own_config(model->config);
+    const config *own = scree_config_own(&scree_module_response, "measure", model->config->measure.own);
     numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_response);
     (void)error;
     *n = (numbers){.load = -1};
     if (!own || !own->load) return SCREE_OK;
     n->load = find_load(model->loads, model->load_count, own->load);
-    n->element = isnan(own->element) ? 0 : own->element;
+    n->element = own->element > 0 ? own->element : 0;
     n->poisson = own->poisson;
     return SCREE_OK;
 }

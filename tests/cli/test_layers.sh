@@ -44,7 +44,7 @@ expect 2 "selections.0: .*'top-grain' .*0.3 m outside of the sample.*0.09" "$scr
 expect 2 "measure.response_load: .*load of the kind prescribed.*'pisto'.*piston" "$scree" run "${layer[@]}" --set measure.response_load=pisto -o no2
 expect 2 'loads.0.until_force: .*velocity' "$scree" run "${layer[@]}" --set loads.piston.velocity_y=0 -o no3
 expect 2 'selections.0.y: .*upwards.*auto' "$scree" check layer-friction --set selections.top-grain.y="1 cm"
-sed 's/{select: top, name: top-grain}/{select: ids, name: top-grain, ids: [3]}/' <<<"$("$scree" new layer-friction --print 2>/dev/null || cat "$(dirname "$0")/../../cases/layer-friction.yaml")" >below.yaml
+sed 's/{select: top, name: top-grain}/{select: ids, name: top-grain, ids: [3]}/' <("$scree" new layer-friction) >below.yaml
 expect 2 'measure.response_load: .*particle 3, which is not at the top: particle [0-9]+ stands over it' "$scree" run below.yaml "${layer[@]:1}" -o no4
 sed 's/ids: \[3\]/ids: [58, 59]/' below.yaml >several.yaml
 expect 2 'measure.response_load: .*particle 58 and on particle 59' "$scree" run several.yaml "${layer[@]:1}" -o no5
