@@ -6,6 +6,7 @@
 // clang-format off
 #define SCREE_FIGURE_FAMILIES(row) \
     row(charts)       /* columns over the strain of loading */ \
+    row(sizes)        /* of the particles */ \
     row(scenes)       /* single snapshots */ \
     row(cell_maps)    /* cells of a snapshot */ \
     row(fluctuations) /* displacements in the strain windows */ \
