@@ -2,10 +2,12 @@
 /// Each block is preceded by one alignment unit that holds its size.
 #include "base/memory.h"
 
+#include <malloc.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 static _Atomic uint64_t calls;
 static _Atomic uint64_t failing_call;
@@ -53,14 +55,22 @@ scree_status scree_allocate(void *pointer, size_t count, size_t size, scree_erro
     return fits && (block || bytes == 0) ? SCREE_OK : scree_error_set_memory(error, fits ? bytes : SIZE_MAX);
 }
 
+/// Address space is asked of the system, not a block of malloc: glibc takes the release of a large block as a sign that
+/// such blocks come often, and from then on keeps freed memory of up to twice that size.
 scree_status scree_memory_check(size_t bytes, scree_error *error)
 {
-    bool fails = next_call_fails();
-    // Volatile: a compiler may drop an allocation that nothing uses, and take it for one that succeeded.
-    void *volatile kept = fails ? NULL : malloc(bytes);
-    void *block = kept;
-    free(block);
-    return block ? SCREE_OK : scree_error_set_memory(error, bytes);
+    if (next_call_fails()) return scree_error_set_memory(error, bytes);
+    void *room = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED) return scree_error_set_memory(error, bytes);
+    (void)munmap(room, bytes);
+    return SCREE_OK;
+}
+
+void scree_memory_trim(void)
+{
+#ifdef __GLIBC__
+    (void)malloc_trim(0);
+#endif
 }
 
 scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count, size_t size, scree_error *error)

@@ -24,6 +24,10 @@ void scree_release(void *pointer);
 /// has run out. Errors: memory.
 scree_status scree_memory_check(size_t bytes, scree_error *error) SCREE_MUST_USE;
 
+/// Gives what was freed back to the system, as far as the C library can: between a phase that took much and one that
+/// will, since pieces of other sizes are not filled again. Costs as many microseconds as there are freed pages.
+void scree_memory_trim(void);
+
 /// Test hook: the n-th allocation from now fails (0: never). Returns the number of allocations made since the last
 /// call.
 uint64_t scree_allocation_fail_after(uint64_t n);

@@ -447,23 +447,10 @@ static scree_status room_for(const char *directory, const scree_part_list lists[
     return SCREE_OK;
 }
 
-static void gather_part(scree_hdf5 *run, const char *directory, scree_part_kind kind, int64_t index)
-{
-    char path[PATH_MAX], group[64];
-    if (run->status || (run->status = scree_part_path(directory, kind, index, path, sizeof path, run->error))) return;
-    scree_part_group(kind, index, group, sizeof group);
-    scree_hdf5 part;
-    scree_hdf5_open_checked(&part, path, run->error);
-    if (!part.status && H5Ocopy(part.file, group, run->file, group, H5P_DEFAULT, H5P_DEFAULT) < 0)
-        scree_hdf5_fail(&part, "copy", group);
-    run->status = scree_hdf5_close(&part);
-    (void)H5garbage_collect();
-}
-
 /// What HDF5 keeps of a file that is open grows up to 32 MB by itself, and parts are copied once: some of it will do.
 static void keep_little(scree_hdf5 *run)
 {
-    enum { CACHE_BYTES = 1 << 20 };
+    enum { CACHE_BYTES = 1 << 16 };
     H5AC_cache_config_t config = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
     if (run->status || H5Fget_mdc_config(run->file, &config) < 0) return;
     config.set_initial_size = true;
@@ -473,6 +460,20 @@ static void keep_little(scree_hdf5 *run)
     config.flash_incr_mode = H5C_flash_incr__off;
     config.decr_mode = H5C_decr__off;
     (void)H5Fset_mdc_config(run->file, &config);
+}
+
+static void gather_part(scree_hdf5 *run, const char *directory, scree_part_kind kind, int64_t index)
+{
+    char path[PATH_MAX], group[64];
+    if (run->status || (run->status = scree_part_path(directory, kind, index, path, sizeof path, run->error))) return;
+    scree_part_group(kind, index, group, sizeof group);
+    scree_hdf5 part;
+    scree_hdf5_open_checked(&part, path, run->error);
+    keep_little(&part);
+    if (!part.status && H5Ocopy(part.file, group, run->file, group, H5P_DEFAULT, H5P_DEFAULT) < 0)
+        scree_hdf5_fail(&part, "copy", group);
+    run->status = scree_hdf5_close(&part);
+    (void)H5garbage_collect();
 }
 
 /// Builds the self-contained file under the name `temporary`.
@@ -490,7 +491,10 @@ static scree_status gather(const char *directory, const char *temporary, const c
     keep_little(&run);
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++)
         for (size_t k = 0; k < lists[kind].count; k++) gather_part(&run, directory, kind, lists[kind].index[k]);
-    return scree_hdf5_close(&run);
+    status = scree_hdf5_close(&run);
+    (void)H5garbage_collect();
+    scree_memory_trim();
+    return status;
 }
 
 /// Removes every part, what a kill left beside them, and the folder when nothing else is in it.

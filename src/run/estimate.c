@@ -38,11 +38,11 @@ static const expense expenses[2] = {
 #define SCENE          0.15  /* s: a scene and its pixels */
 #define SCENE_BODY     2e-5  /* s: a body in a scene */
 #define END_OF_CELLS   2.0   /* snapshots' cells: their results at the end of a run */
-#define PROGRAM_BYTES  32e6  /* the libraries that a run needs */
-#define SNAPSHOT_BYTES 0.8e6 /* a snapshot while run.h5 is gathered, */
-#define GATHER_BYTES   6e6   /* and the most of all of them beside those of their bodies */
-#define FIGURE_BYTES   11e6  /* of all figures, and of each scene */
-#define SCENE_BYTES    1e6
+#define PROGRAM_BYTES  28e6  /* the libraries that a run needs */
+#define SNAPSHOT_BYTES 0.1e6 /* a snapshot while run.h5 is gathered, */
+#define GATHER_BYTES   1e6   /* and the most of all of them beside those of their bodies */
+#define FIGURE_BYTES   12e6  /* of all figures, and of each scene */
+#define SCENE_BYTES    0.5e6
 /// s: a contact with a wall that only space has (curved, or a mesh), which the probe does without; bodies that have
 /// one: the outermost layers of a sample.
 #define CURVED_CONTACT 0.1e-6

@@ -14,6 +14,7 @@
     row(breaks)       /* bonds that broke */ \
     row(iterates)     /* strains of particles that are held */ \
     row(pile)         /* what was poured */ \
+    row(response)     /* a load on a layer */ \
     row(waves)        /* receivers and layers */ \
     row(fem)          /* finite elements beside the run */ \
     row(circles)      /* pressure over growing circles */ \

@@ -66,6 +66,7 @@ static scree_status write_one(const char *path, const char *extension, render *r
     if (!status) status = scree_replace_begin(name, &file, error);
     if (status) return status;
     cairo_status_t cairo_status = renderer(file, page);
+    scree_memory_trim();
     status = scree_replace_finish(name, file, cairo_status == CAIRO_STATUS_SUCCESS, error);
     if (cairo_status)
         status = scree_error_set(error, SCREE_ERROR_IO, "cannot draw the figure '%s': %s", name,
