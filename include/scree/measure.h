@@ -15,7 +15,7 @@ extern "C" {
 
 /// What is measured, as on the command line (`scree measure --help`); NULL or 0: as there without the option.
 typedef struct scree_measure_options {
-    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity", or some of them
+    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity,elastic", or some of them; elastic needs `from`
     const char *cuts;    ///< "5", a number of cuts, or "0,0.25,0.5", their relative heights
     const char *element; ///< "150", grains in an element, or "30 mm", its side
     const char *grid;    ///< "100x50", points of a map; in 3D x and z in the middle of y, or "20x20x20"

@@ -1,6 +1,8 @@
 /// Cuts and maps.
 #include "average/cuts.h"
 
+#include "average/elastic.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -119,6 +121,19 @@ static double vertical_pressure(const scree_average_view *view, const scree_aver
     return -value->centres.moment[4 * up] / (value->volume * view->sample->thickness);
 }
 
+/// What has changed since the earlier instant.
+static void tell_increments(const scree_average_view *view, const scree_average_plan *plan,
+                            const scree_average_element *element, const scree_average_value *value,
+                            scree_average_table *table)
+{
+    scree_vector displacement;
+    double gradient[SCREE_AVERAGE_STRAINS][9];
+    scree_average_strain_find(&view->strain, element, displacement, gradient);
+    scree_average_strain_tell(view->sample->dimension, displacement, gradient, scree_average_table_take, table);
+    if (plan->fields & SCREE_AVERAGE_ELASTIC)
+        scree_average_elastic_tell(view->sample, value, gradient, scree_average_table_take, table);
+}
+
 static void tell_fields(const scree_average_view *view, const scree_average_plan *plan, const scree_vector centre,
                         scree_average_table *table)
 {
@@ -127,7 +142,7 @@ static void tell_fields(const scree_average_view *view, const scree_average_plan
     scree_average_value value;
     scree_average_measure(view->sample, &view->bins, &view->surface, &element, &value);
     scree_average_tell(view->sample, &value, plan->fields, scree_average_table_take, table);
-    if (view->moved) scree_average_strain_tell(&view->strain, &element, scree_average_table_take, table);
+    if (view->moved) tell_increments(view, plan, &element, &value, table);
     if (plan->fields & SCREE_AVERAGE_STRESS)
         scree_average_table_take(table, "vertical_pressure_scaled", "1",
                                  g > 0 ? vertical_pressure(view, &value) / (view->bulk_density * g * view->frame.height)

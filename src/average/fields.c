@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
-const char *const scree_average_field_names[SCREE_AVERAGE_FIELDS + 1] = {"density", "coordination", "stress", "fabric",
-                                                                         "inertia", "velocity",     NULL};
+const char *const scree_average_field_names[SCREE_AVERAGE_FIELDS + 1] = {"density", "coordination", "stress",  "fabric",
+                                                                         "inertia", "velocity",     "elastic", NULL};
 
 // ---- sums --------------------------------------------------------------------------------------------------------
 
@@ -26,6 +26,8 @@ static void add_grain(const scree_average_sample *sample, uint32_t p, double wei
     scree_tensor_add_scaled(sums->normals, solid, own->normals);
     scree_tensor_add_scaled(sums->inertia, solid, own->inertia);
     scree_tensor_add_scaled(sums->axis, weight, own->axis);
+    if (sample->earlier && grain->moved)
+        for (int k = 0; k < 9; k++) sums->change[k] += weight * (own->moment[k] - sample->earlier[p][k]);
     sums->axes += weight * (own->axis[0] + own->axis[4] + own->axis[8]);
 }
 
@@ -129,6 +131,11 @@ static void tell_fabric(const telling *t)
     tell_form(t, "fabric", "1", v->centres.branches, 1 / v->volume);
     tell(t, "fabric_trace", "_inside", "1",
          (v->centres.branches[0] + v->centres.branches[4] + v->centres.branches[8]) / v->volume / v->inside);
+    const scree_tensor_form fabric = scree_tensor_form_of(v->centres.branches, t->sample->dimension);
+    tell(t, "fabric_anisotropy", "", "1", fabric.deviator / fabric.trace);
+    tell(t, "fabric_factor", "", "1",
+         (v->centres.branches[0] + v->centres.branches[4] + v->centres.branches[8]) * v->centres.grains /
+             (v->centres.solid * v->centres.contacts));
     tell_tensor(t, "normals", "", "1", v->centres.normals, 1 / v->volume);
     tell_form(t, "normals", "1", v->centres.normals, 1 / v->volume);
 }
@@ -165,5 +172,5 @@ void scree_average_tell(const scree_average_sample *sample, const scree_average_
     tell(&t, "grains", "", "1", value->centres.grains);
     tell(&t, "inside", "", "1", value->inside);
     for (int k = 0; k < SCREE_AVERAGE_FIELDS; k++)
-        if (fields >> k & 1) tellers[k](&t);
+        if (tellers[k] && fields >> k & 1) tellers[k](&t);
 }

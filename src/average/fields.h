@@ -10,6 +10,8 @@
 ///     inertia           sum w V_p theta_p / V                                              R 2.92
 ///     axes              sum e (x) e / number, e the long axis of each grain that has one
 ///     velocity          sum w m v / sum w m
+///     fabric_anisotropy largest less smallest principal value of F over tr F
+///     fabric_factor     tr F / (volume_fraction coordination), g_2 of R 3.4
 /// The trace of the fabric tensor of equal grains is volume_fraction times coordination. theta grows with the fourth
 /// power of the size (fifth in 3D) and is weighted by another volume: a few large grains rule it, which is why the mean
 /// of e (x) e stands beside it. The printed tensor of inertia has its MINOR axis along the LONG axis of a grain: what
@@ -25,6 +27,7 @@
 typedef struct scree_average_sums {
     double grains, solid, contacts, mass, momentum[3];
     double moment[9], branches[9], normals[9], inertia[9];
+    double change[9];     ///< N m, of the moments since an earlier instant, where it is known
     double axes, axis[9]; ///< grains that have a long axis
 } scree_average_sums;
 
@@ -46,7 +49,8 @@ enum {
     SCREE_AVERAGE_FABRIC = 8,
     SCREE_AVERAGE_INERTIA = 16,
     SCREE_AVERAGE_VELOCITY = 32,
-    SCREE_AVERAGE_FIELDS = 6
+    SCREE_AVERAGE_ELASTIC = 64, ///< average/elastic.h
+    SCREE_AVERAGE_FIELDS = 7
 };
 
 /// Names of the fields by bit.
@@ -55,7 +59,8 @@ extern const char *const scree_average_field_names[SCREE_AVERAGE_FIELDS + 1];
 /// Takes the columns of a table one by one.
 typedef void scree_average_sink(void *user, const char *name, const char *unit, double value);
 
-/// Tells all numbers of the fields in the mask, in an order that depends on dimension and fields alone.
+/// Tells all numbers of the fields in the mask but the elastic ones, in an order that depends on dimension and fields
+/// alone.
 void scree_average_tell(const scree_average_sample *sample, const scree_average_value *value, unsigned fields,
                         scree_average_sink *sink, void *user);
 

@@ -16,6 +16,7 @@ void scree_average_sample_destroy(scree_average_sample *sample)
     scree_release(&sample->contact);
     scree_release(&sample->corner);
     scree_release(&sample->own);
+    scree_release(&sample->earlier);
     *sample = (scree_average_sample){0};
 }
 

@@ -74,6 +74,7 @@ typedef struct scree_average_sample {
 
     // ---- found by scree_average_sample_finish ----
     scree_average_own *own;  ///< a grain
+    double (*earlier)[9];    ///< N m, moments of the grains at an earlier instant (average/strain.h); NULL: unknown
     size_t counted;          ///< so many grains are counted
     double mean_radius;      ///< m, of these
     double mean_volume;      ///< m2, m3

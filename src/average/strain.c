@@ -16,6 +16,10 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
         return scree_error_set(error, SCREE_ERROR_INPUT,
                                "a sample that repeats itself has no displacements: bodies leave its cell on one side "
                                "and come back on the other");
+    if (before->own) {
+        scree_status status = scree_allocate(&sample->earlier, sample->bodies, sizeof *sample->earlier, error);
+        if (status) return status;
+    }
     // Bodies of both are in the order of their ids.
     for (size_t p = 0; p < sample->bodies; p++) {
         scree_average_grain *grain = &sample->grain[p];
@@ -24,6 +28,7 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
         scree_subtract(grain->position, before->grain[at].position, grain->displacement);
         grain->turn = grain->angle - before->grain[at].angle;
         grain->moved = true;
+        if (before->own) memcpy(sample->earlier[p], before->own[at].moment, sizeof before->own[at].moment);
         moved += grain->counted;
     }
     if (moved > 0) return SCREE_OK;
@@ -258,23 +263,21 @@ void scree_average_strain_find(const scree_average_strain *strain, const scree_a
     find_bagi(strain, element, gradient[SCREE_AVERAGE_BAGI]);
 }
 
-void scree_average_strain_tell(const scree_average_strain *strain, const scree_average_element *element,
-                               scree_average_sink *sink, void *user)
+const char *const scree_average_strain_names[SCREE_AVERAGE_STRAINS] = {"cundall", "cambou", "liao", "difference",
+                                                                       "bagi"};
+
+void scree_average_strain_tell(int dimension, const scree_vector displacement,
+                               double gradient[SCREE_AVERAGE_STRAINS][9], scree_average_sink *sink, void *user)
 {
-    static const char *const name[SCREE_AVERAGE_STRAINS] = {"cundall", "cambou", "liao", "difference", "bagi"};
-    const int d = strain->sample->dimension;
-    scree_vector displacement;
-    double gradient[SCREE_AVERAGE_STRAINS][9];
     char text[32];
-    scree_average_strain_find(strain, element, displacement, gradient);
-    for (int i = 0; i < d; i++) {
+    for (int i = 0; i < dimension; i++) {
         (void)snprintf(text, sizeof text, "displacement_%c", "xyz"[i]);
         sink(user, text, "m", displacement[i]);
     }
     for (int s = 0; s < SCREE_AVERAGE_STRAINS; s++)
-        for (int i = 0; i < d; i++)
-            for (int j = 0; j < d; j++) {
-                (void)snprintf(text, sizeof text, "%s_%c%c", name[s], "xyz"[i], "xyz"[j]);
+        for (int i = 0; i < dimension; i++)
+            for (int j = 0; j < dimension; j++) {
+                (void)snprintf(text, sizeof text, "%s_%c%c", scree_average_strain_names[s], "xyz"[i], "xyz"[j]);
                 sink(user, text, "1", gradient[s][3 * i + j]);
             }
 }

@@ -36,8 +36,8 @@ typedef struct scree_average_strain {
     double *place;         ///< m, initial centres of what the cells are made of, x 3
 } scree_average_strain;
 
-/// Displacements and turns of the grains of `sample` since `before`, by ids. Errors: SCREE_ERROR_INPUT: it repeats
-/// itself, or no grain is in both.
+/// Displacements and turns of the grains of `sample` since `before`, by ids; where `before` is finished, their moments
+/// then, too. Errors: SCREE_ERROR_INPUT: it repeats itself, or no grain is in both; memory.
 scree_status scree_average_move(scree_average_sample *sample, const scree_average_sample *before,
                                 scree_error *error) SCREE_MUST_USE;
 
@@ -58,8 +58,11 @@ enum {
 void scree_average_strain_find(const scree_average_strain *strain, const scree_average_element *element,
                                scree_vector displacement, double gradient[SCREE_AVERAGE_STRAINS][9]);
 
-/// Tells the mean displacement and all components of all gradients.
-void scree_average_strain_tell(const scree_average_strain *strain, const scree_average_element *element,
-                               scree_average_sink *sink, void *user);
+/// Names of the definitions.
+extern const char *const scree_average_strain_names[SCREE_AVERAGE_STRAINS];
+
+/// Tells the mean displacement and all components of all gradients of an element.
+void scree_average_strain_tell(int dimension, const scree_vector displacement,
+                               double gradient[SCREE_AVERAGE_STRAINS][9], scree_average_sink *sink, void *user);
 
 #endif

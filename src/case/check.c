@@ -150,9 +150,10 @@ static void read_list(const scope *s, const scree_key *key, scree_node *node, co
         scree_problem_add(s->reader, node->place, path, node->text, limits, "expected %s", scree_key_noun(key));
         return;
     }
-    if (node->count < strtoull(key->least.text, NULL, 10) || node->count > strtoull(key->most.text, NULL, 10)) {
-        scree_problem_add(s->reader, node->place, path, NULL, limits, "%zu elements are too %s", node->count,
-                          node->count == 0 ? "few" : "many");
+    const bool few = node->count < strtoull(key->least.text, NULL, 10);
+    if (few || node->count > strtoull(key->most.text, NULL, 10)) {
+        scree_problem_add(s->reader, node->place, path, NULL, limits, "%zu element%s too %s", node->count,
+                          node->count == 1 ? " is" : "s are", few ? "few" : "many");
         return;
     }
     char *elements = scree_arena_take(s->reader->arena, node->count * key->element_size);
@@ -226,7 +227,8 @@ static void read_inner_section(const scope *s, const scree_key *key, scree_node 
 /// Whether its rows may stand in a file.
 static bool takes_table(const scree_key *key)
 {
-    return key->type == SCREE_KEY_SCHEDULE || key->type == SCREE_KEY_PAIRS;
+    return key->type == SCREE_KEY_SCHEDULE || key->type == SCREE_KEY_PAIRS ||
+           (key->type == SCREE_KEY_LIST && key->section_count == 1);
 }
 
 static void read_key(const scope *s, const scree_key *key)
@@ -243,9 +245,12 @@ static void read_key(const scope *s, const scree_key *key)
         read_inner_section(s, key, child, path);
     else if (!child && !key->standard)
         refuse_missing(s, key, path);
+    else if (takes_table(key) && scree_csv_is_named(child) &&
+             !scree_csv_expand(s->reader, child, path, key->type == SCREE_KEY_LIST))
+        return;
     else if (key->type == SCREE_KEY_LIST)
         read_list(s, key, child, path);
-    else if (!takes_table(key) || !scree_csv_is_named(child) || scree_csv_expand(s->reader, child, path))
+    else
         scree_value_store(s->reader, key, child, path, s->base);
 }
 

@@ -9,7 +9,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-enum { LARGEST_FILE = 1 << 20, MOST_CELLS = 8, LONGEST_PATH = 4096 };
+enum { LARGEST_FILE = 1 << 20, MOST_CELLS = 16, LONGEST_PATH = 4096 };
 
 /// A file that is being read.
 typedef struct table {
@@ -18,6 +18,8 @@ typedef struct table {
     scree_place place;
     scree_node *list;              ///< of the rows
     const char *units[MOST_CELLS]; ///< of the columns; NULL: SI
+    const char *names[MOST_CELLS]; ///< of the columns
+    bool of_elements;              ///< rows are elements of a list, columns their keys
     bool begun;                    ///< the names of the columns, or a first row, have been read
 } table;
 
@@ -84,13 +86,27 @@ static bool refuse(const table *t, const char *message)
 static bool add_row(table *t, char *const cells[], const size_t columns[], size_t count)
 {
     if (t->list->count == SCREE_TABLE_ROWS) return refuse(t, "a table has at most 2000 rows");
-    scree_node *row = append(t, t->list, &(scree_node){.kind = SCREE_NODE_LIST, .place = t->place});
+    const scree_node_kind kind = t->of_elements ? SCREE_NODE_MAPPING : SCREE_NODE_LIST;
+    scree_node *row = append(t, t->list, &(scree_node){.kind = kind, .place = t->place});
     for (size_t k = 0; row && k < count; k++) {
-        scree_node cell = {.place = t->place, .text = with_unit(t, cells[k], t->units[k])};
+        if (t->of_elements && !t->names[k]) return refuse(t, "this row has more values than the first has names");
+        if (t->of_elements && !cells[k][0]) continue;
+        scree_node cell = {.place = t->place, .text = with_unit(t, cells[k], t->units[k]), .key = t->names[k]};
         cell.place.column = (int)columns[k];
+        cell.key_place = cell.place;
         if (!cell.text || !append(t, row, &cell)) return false;
     }
     return row != NULL;
+}
+
+/// What a column is called, without its unit. False: memory ran out.
+static bool read_name(table *t, char *cell, size_t k)
+{
+    t->units[k] = unit_in(cell);
+    char *name = trim(cell, cell + strcspn(cell, "["));
+    t->names[k] = scree_arena_copy(t->reader->arena, name, strlen(name));
+    if (!t->names[k]) scree_reader_fail(t->reader, strlen(name));
+    return t->names[k] != NULL;
 }
 
 /// A line without its end, which may be changed.
@@ -101,16 +117,18 @@ static bool read_line(table *t, char *line)
     *end = 0;
     if (!*trim(line, end)) return true;
     for (bool more = true; more; count++) {
-        if (count == MOST_CELLS) return refuse(t, "a row of a table has at most 8 values");
+        if (count == MOST_CELLS) return refuse(t, "a row of a table has at most 16 values");
         char *stop = at + strcspn(at, ",;");
         more = *stop != 0;
         cells[count] = trim(at, stop);
         columns[count] = (size_t)(cells[count] - line) + 1;
         at = stop + 1;
     }
-    bool names = !t->begun && !begins_with_number(cells[0]);
+    const bool names = !t->begun && !begins_with_number(cells[0]);
+    if (t->of_elements && !t->begun && !names) return refuse(t, "the first row does not name the columns");
     t->begun = true;
-    for (size_t k = 0; names && k < count; k++) t->units[k] = unit_in(cells[k]);
+    for (size_t k = 0; names && k < count; k++)
+        if (!read_name(t, cells[k], k)) return false;
     return names || add_row(t, cells, columns, count);
 }
 
@@ -140,7 +158,7 @@ static char *read_bytes(scree_reader *reader, const char *name, size_t *length, 
     return whole ? bytes : NULL;
 }
 
-bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path)
+bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, bool of_elements)
 {
     char name[LONGEST_PATH];
     const char *reason;
@@ -152,7 +170,7 @@ bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path)
                           reason);
     if (!bytes) return false;
     scree_node list = {.kind = SCREE_NODE_LIST, .place = node->place, .key = node->key, .key_place = node->key_place};
-    table t = {.reader = reader, .path = path, .place = node->place, .list = &list};
+    table t = {.reader = reader, .path = path, .place = node->place, .list = &list, .of_elements = of_elements};
     t.place.source = scree_arena_copy(reader->arena, name, strlen(name));
     t.place.line = 0;
     if (!t.place.source) scree_reader_fail(reader, strlen(name));

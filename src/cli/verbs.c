@@ -399,7 +399,9 @@ static const scree_verb run_verbs[] = {
             "3D cubes) along horizontal cuts, on a grid with `--grid`, and with a smooth kernel with `--kernel`; "
             "beside these distributions of forces and friction, force chains, and roses of contacts. Grains count by "
             "their centres, and beside it by their exact parts in the element; elements that reach out of the sample "
-            "also over their part inside it. With `--from` displacements and strains between two snapshots.\n\n"
+            "also over their part inside it. With `--from` displacements and strains between two snapshots, with "
+            "`elastic` "
+            "also changes of stress and elastic constants.\n\n"
             "Several runs are an ensemble: means over them with 95 % bands (bootstrap over runs), and under piles the "
             "dip of the vertical pressure, 1 - its value on the axis over its largest, with its interval and p, a pile "
             "and its mirror image being one sample.\n\n"
@@ -409,7 +411,7 @@ static const scree_verb run_verbs[] = {
         .argument = {{"RUN", "folder of a finished run; several are an ensemble", SCREE_VALUE_FOLDER, false, true}},
         .option = {{.name = "fields",
                     .value = "NAME,...",
-                    .meaning = "density, coordination, stress, fabric, inertia, velocity",
+                    .meaning = "density, coordination, stress, fabric, inertia, velocity, elastic (with --from)",
                     .preset = "density,coordination,stress,fabric"},
                    {.name = "cuts",
                     .value = "N|HEIGHTS",
@@ -450,6 +452,8 @@ static const scree_verb run_verbs[] = {
         .example = {{"scree measure out --fields stress,fabric,density --cuts 5 --element 150", "cuts through a pile"},
                     {"scree measure out --grid 100x50 --kernel 3", "maps of elements and of smooth fields"},
                     {"scree measure piles/* -o ensemble", "several piles, with bands and the dip"},
+                    {"scree measure out --fields stress,fabric,elastic --from settle --at end",
+                     "strains, changes of stress, elastic constants"},
                     {"scree measure drum --at mean:10 --fields density,velocity", "a mean over time"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_measure,

@@ -13,6 +13,11 @@
 
 // ---- snapshots of a run ------------------------------------------------------------------------------------------
 
+bool scree_snapshot_mark_is_of(const scree_snapshot_mark *mark, const char *stage)
+{
+    return strcmp(mark->stage_name, stage) == 0 || strcmp(mark->stage, stage) == 0;
+}
+
 scree_status scree_snapshot_marks(const char *directory, scree_snapshot_mark **marks, size_t *count, scree_error *error)
 {
     char path[PATH_MAX], group[64];
@@ -34,6 +39,9 @@ scree_status scree_snapshot_marks(const char *directory, scree_snapshot_mark **m
         scree_hdf5_get_number(&run, group, "time", &mark->time);
         scree_hdf5_get_number(&run, group, "axial_strain", &mark->axial_strain);
         scree_hdf5_get_text(&run, group, "stage", mark->stage, sizeof mark->stage);
+        (void)snprintf(mark->stage_name, sizeof mark->stage_name, "%s", mark->stage);
+        if (!run.status && H5Aexists_by_name(run.file, group, "stage_name", H5P_DEFAULT) > 0)
+            scree_hdf5_get_text(&run, group, "stage_name", mark->stage_name, sizeof mark->stage_name);
     }
     *count = list.count;
     scree_part_list_destroy(&list);

@@ -9,8 +9,12 @@ typedef struct scree_snapshot_mark {
     int64_t index;       ///< its number
     double time;         ///< s
     double axial_strain; ///< NAN outside loading
-    char stage[32];
+    char stage[32];      ///< its kind
+    char stage_name[64]; ///< in the case; of older snapshots the kind
 } scree_snapshot_mark;
+
+/// Whether a snapshot is one of a stage that is called so: by the name of the stage in the case, or by its kind.
+bool scree_snapshot_mark_is_of(const scree_snapshot_mark *mark, const char *stage);
 
 /// All snapshots of a run in their order; free *marks with scree_release. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT (no
 /// run, none in it); memory.

@@ -123,6 +123,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_integer(&part, group, "dimension", (uint64_t)state->dimension);
     scree_hdf5_set_number(&part, group, "time", info->time);
     scree_hdf5_set_text(&part, group, "stage", info->stage);
+    if (info->stage_name) scree_hdf5_set_text(&part, group, "stage_name", info->stage_name);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
     scree_hdf5_set_integer(&part, group, "grains", scree_grain_count(state));
     scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));

@@ -22,10 +22,11 @@
 #include "state/plates.h"
 
 typedef struct scree_snapshot_info {
-    int64_t index;       ///< running number, names the group
-    double time;         ///< s
-    double axial_strain; ///< NAN outside loading
-    const char *stage;
+    int64_t index;                     ///< running number, names the group
+    double time;                       ///< s
+    double axial_strain;               ///< NAN outside loading
+    const char *stage;                 ///< its kind
+    const char *stage_name;            ///< in the case; NULL: it has none
     const scree_cells *cells;          ///< with all their fields; NULL: not written
     const scree_wall_triangles *walls; ///< of the case; NULL: none
     bool restartable;                  ///< with the whole state, which must have its contacts saved

@@ -1,14 +1,16 @@
 /// Averages of runs and of ensembles of runs.
 #include "library/measure.h"
 
+#include "average/elastic_ensemble.h"
 #include "io/run_directory.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
-enum { BANDS = 60000 };  ///< numbers of a table that has bands; each is resampled
-#define SIGNIFICANT 0.05 /* largest p of a dip that is one */
+enum { BANDS = 60000 };   ///< numbers of a table that has bands; each is resampled
+#define LEAST_INSIDE 0.5  /* of an element, where strains are looked at: outside of the surface there are none */
+#define SIGNIFICANT  0.05 /* largest p of a dip that is one */
 
 // ---- ensembles ---------------------------------------------------------------------------------------------------
 
@@ -18,6 +20,7 @@ static void found_destroy(measure_found *found)
     measure_tables_destroy(&found->low);
     measure_tables_destroy(&found->high);
     scree_release(&found->dip);
+    scree_release(&found->strain_dip);
 }
 
 static scree_status find_means(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
@@ -29,21 +32,59 @@ static scree_status find_means(const measure_tables *each, size_t count, measure
         for (size_t i = 0; i < count; i++) same[i] = each[i].of[k];
         status =
             scree_average_table_mean(same, count, &found->mean.of[k], &found->low.of[k], &found->high.of[k], error);
+        if (!status && count > 1)
+            status = scree_average_elastic_ensemble(same, count, &found->mean.of[k],
+                                                    found->low.of[k].rows > 0 ? &found->low.of[k] : NULL,
+                                                    &found->high.of[k], error);
     }
     scree_release(&same);
     return status;
 }
 
-/// Profiles of the vertical pressure of a cut, run by run. Those of an ensemble are scaled by what a pile without voids
-/// of its bulk density and height would bear, where there is gravity, so that piles of other sizes weigh alike.
+/// Profiles of a column of a cut, run by run, over the elements of which at least a given part lies in the sample.
+/// Those of the pressure of an ensemble are scaled by what a pile without voids of its bulk density and height would
+/// bear, where there is gravity, so that piles of other sizes weigh alike.
 static void take_profiles(const measure_tables *each, size_t count, const measure_plan *plan, size_t cut, size_t column,
-                          double sign, double *profile)
+                          double least, double sign, double *profile)
 {
     const size_t points = plan->average.points;
-    for (size_t i = 0; i < count; i++)
-        for (size_t j = 0; j < points; j++)
-            profile[i * points + j] =
-                sign * scree_average_table_get(&each[i].of[MEASURE_CUTS], cut * points + j, column);
+    for (size_t i = 0; i < count; i++) {
+        const scree_average_table *cuts = &each[i].of[MEASURE_CUTS];
+        const size_t inside = scree_average_table_find(cuts, "inside");
+        for (size_t j = 0; j < points; j++) {
+            const size_t row = cut * points + j;
+            const bool taken = scree_average_table_get(cuts, row, inside) >= least;
+            profile[i * points + j] = taken ? sign * scree_average_table_get(cuts, row, column) : NAN;
+        }
+    }
+}
+
+/// Dips of a column, cut by cut.
+static scree_status find_dips_of(const measure_tables *each, size_t count, const measure_plan *plan, size_t column,
+                                 double least, double sign, scree_average_dip **dip, scree_error *error)
+{
+    double *profile;
+    scree_status status = scree_allocate(&profile, count * plan->average.points, sizeof *profile, error);
+    if (!status) status = scree_allocate(dip, plan->average.cuts, sizeof **dip, error);
+    for (size_t k = 0; k < plan->average.cuts && !status; k++) {
+        take_profiles(each, count, plan, k, column, least, sign, profile);
+        status = scree_average_dip_find(profile, count, plan->average.points, &(*dip)[k], error);
+    }
+    scree_release(&profile);
+    return status;
+}
+
+/// Of the vertical strain; where gravity falls that is an extension.
+static scree_status find_strain_dips(const measure_tables *each, size_t count, const measure_plan *plan,
+                                     measure_found *found, scree_error *error)
+{
+    const scree_average_table *values = &found->mean.of[MEASURE_VALUES], *cuts = &each[0].of[MEASURE_CUTS];
+    const size_t mean = scree_average_table_find(values, "strain_mean");
+    size_t column = scree_average_table_find(cuts, "cundall_zz");
+    if (column == SIZE_MAX) column = scree_average_table_find(cuts, "cundall_yy");
+    if (mean == SIZE_MAX || column == SIZE_MAX) return SCREE_OK;
+    return find_dips_of(each, count, plan, column, LEAST_INSIDE, values->value[mean] < 0 ? -1 : 1, &found->strain_dip,
+                        error);
 }
 
 static scree_status find_dips(const measure_tables *each, size_t count, const measure_plan *plan, measure_found *found,
@@ -51,18 +92,12 @@ static scree_status find_dips(const measure_tables *each, size_t count, const me
 {
     const scree_average_table *cuts = &each[0].of[MEASURE_CUTS];
     const size_t cut_count = plan->average.cuts, column = scree_average_table_find(cuts, "vertical_pressure_scaled");
-    double *profile;
-    if (column == SIZE_MAX || isnan(scree_average_table_get(cuts, 0, column))) return SCREE_OK;
-    scree_status status = scree_allocate(&profile, count * plan->average.points, sizeof *profile, error);
-    if (!status) status = scree_allocate(&found->dip, cut_count, sizeof *found->dip, error);
-    for (size_t k = 0; k < cut_count && !status; k++) {
-        take_profiles(each, count, plan, k, column, 1, profile);
-        status = scree_average_dip_find(profile, count, plan->average.points, &found->dip[k], error);
-    }
+    scree_status status = find_strain_dips(each, count, plan, found, error);
+    if (status || column == SIZE_MAX || isnan(scree_average_table_get(cuts, 0, column))) return status;
+    status = find_dips_of(each, count, plan, column, 0, 1, &found->dip, error);
     found->dip_height = count > 1 ? 0 : NAN;
     for (size_t k = 0; k < cut_count && !status && found->dip[k].p <= SIGNIFICANT; k++)
         found->dip_height = plan->average.height[k];
-    scree_release(&profile);
     return status;
 }
 

@@ -45,8 +45,9 @@ typedef struct measure_tables {
 typedef struct measure_found {
     size_t runs;
     measure_tables mean, low, high;
-    scree_average_dip *dip; ///< a cut; NULL: no stress along cuts
-    double dip_height;      ///< 1, relative height above which no dip is significant; NAN with one run
+    scree_average_dip *dip;        ///< a cut; NULL: no stress along cuts
+    scree_average_dip *strain_dip; ///< the same of the vertical strain; NULL: no elastic constants
+    double dip_height;             ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;
 
 /// Reads the options. Errors: SCREE_ERROR_INPUT with the option as field.
@@ -56,12 +57,22 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
 scree_status measure_run(const char *directory, const measure_plan *plan, measure_tables *tables, scree_error *error);
 void measure_tables_destroy(measure_tables *tables);
 
+/// Smooth fields of a sample, and where it has earlier moments those of its changes since `before`. Errors: memory.
+scree_status measure_kernel(const scree_average_sample *before, const scree_average_sample *sample,
+                            const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
+                            scree_error *error);
+
 /// Writes what was found into the folder. Errors: SCREE_ERROR_IO.
 scree_status measure_write(const char *folder, const measure_plan *plan, const measure_found *found,
                            scree_error *error);
 
 /// Draws it. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
+
+/// Draws elements as points in the plane of two of their numbers, where there are elastic constants. Errors:
+/// SCREE_ERROR_IO; memory.
+scree_status measure_draw_clouds(const char *folder, const measure_plan *plan, const measure_found *found,
+                                 scree_error *error);
 
 /// Draws the network of a plane sample and its chains. linked: a contact, 1 where it is a link of a chain. Errors:
 /// SCREE_ERROR_IO; memory.

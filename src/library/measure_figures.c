@@ -28,23 +28,35 @@ static scree_status forgive(scree_status status)
 typedef struct cut_figure {
     const char *file, *column, *title, *label;
     double factor;
+    double least; ///< of an element inside the sample, else it is left out
 } cut_figure;
 
 static const cut_figure cut_figures[] = {
     {"cuts-pressure-scaled", "vertical_pressure_scaled", "Vertical pressure by height",
-     "vertical pressure / (bulk density g height)", 1},
-    {"cuts-stress-vertical", "stress_yy", "Vertical pressure by height", "vertical pressure (kPa)", -1e-3},
-    {"cuts-stress-horizontal", "stress_xx", "Horizontal pressure by height", "horizontal pressure (kPa)", -1e-3},
-    {"cuts-stress-shear", "stress_xy", "Shear stress by height", "shear stress (kPa)", 1e-3},
-    {"cuts-density", "volume_fraction", "Volume fraction by height", "volume fraction of whole elements", 1},
+     "vertical pressure / (bulk density g height)", 1, 0},
+    {"cuts-stress-vertical", "stress_yy", "Vertical pressure by height", "vertical pressure (kPa)", -1e-3, 0},
+    {"cuts-stress-horizontal", "stress_xx", "Horizontal pressure by height", "horizontal pressure (kPa)", -1e-3, 0},
+    {"cuts-stress-shear", "stress_xy", "Shear stress by height", "shear stress (kPa)", 1e-3, 0},
+    {"cuts-stress-change", "stress_change_yy", "Change of the vertical pressure by height",
+     "change of the vertical pressure (kPa)", -1e-3, 0},
+    {"cuts-density", "volume_fraction", "Volume fraction by height", "volume fraction of whole elements", 1, 0},
     {"cuts-density-inside", "volume_fraction_parts_inside", "Volume fraction by height, inside the surface",
-     "volume fraction of the part inside", 1},
-    {"cuts-coordination", "coordination", "Contacts by height", "contacts per grain", 1},
-    {"cuts-fabric", "fabric_trace", "Trace of the fabric tensor by height", "tr F", 1},
-    {"cuts-fabric-angle", "fabric_angle", "Major axis of the fabric tensor by height", "angle (degrees)", 1},
-    {"cuts-long-axis", "long_axis_angle", "Long axis of the mean inertia tensor by height", "angle (degrees)", 1},
-    {"cuts-velocity", "velocity_x", "Horizontal velocity by height", "velocity x (m/s)", 1},
-    {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "vertical strain, compression positive", -1},
+     "volume fraction of the part inside", 1, 0},
+    {"cuts-coordination", "coordination", "Contacts by height", "contacts per grain", 1, 0},
+    {"cuts-fabric", "fabric_trace", "Trace of the fabric tensor by height", "tr F", 1, 0},
+    {"cuts-fabric-anisotropy", "fabric_anisotropy", "Anisotropy of the fabric tensor by height", "deviator / trace", 1,
+     0},
+    {"cuts-fabric-angle", "fabric_angle", "Major axis of the fabric tensor by height", "angle (degrees)", 1, 0},
+    {"cuts-long-axis", "long_axis_angle", "Long axis of the mean inertia tensor by height", "angle (degrees)", 1, 0},
+    {"cuts-velocity", "velocity_x", "Horizontal velocity by height", "velocity x (m/s)", 1, 0},
+    {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "vertical strain, compression positive", -1, 0},
+    {"cuts-bulk-modulus", "bulk_modulus", "Bulk modulus by height, elements more than half inside", "K (MPa)", 1e-6,
+     0.5},
+    {"cuts-shear-modulus", "shear_modulus", "Shear modulus by height, elements more than half inside", "G (MPa)", 1e-6,
+     0.5},
+    {"cuts-young-modulus", "young_modulus", "Young's modulus by height, elements more than half inside", "E (MPa)",
+     1e-6, 0.5},
+    {"cuts-poisson-ratio", "poisson_ratio", "Poisson's ratio by height, elements more than half inside", "nu", 1, 0.5},
 };
 
 /// The column of a figure; up is y in 2D and z in 3D.
@@ -68,6 +80,14 @@ static double *take(const scree_average_table *table, size_t column, size_t firs
     if (scree_allocate(&value, count, sizeof *value, error)) return NULL;
     for (size_t k = 0; k < count; k++) value[k] = factor * scree_average_table_get(table, first + k, column);
     return value;
+}
+
+/// Makes values NAN whose elements lie in the sample by less than a part.
+static void leave_out(const scree_average_table *cuts, size_t first, size_t count, double least, double *value)
+{
+    const size_t inside = scree_average_table_find(cuts, "inside");
+    for (size_t k = 0; k < count && value && least > 0; k++)
+        if (!(scree_average_table_get(cuts, first + k, inside) >= least)) value[k] = NAN;
 }
 
 /// Axes have no order: a line would run from one end of the scale to the other.
@@ -95,6 +115,7 @@ static scree_status draw_cuts(const char *folder, const measure_plan *plan, cons
         const scree_average_table *low = &found->low.of[MEASURE_CUTS], *high = &found->high.of[MEASURE_CUTS];
         part[k][2] = bands ? take(figure->factor > 0 ? low : high, column, k * n, n, figure->factor, error) : NULL;
         part[k][3] = bands ? take(figure->factor > 0 ? high : low, column, k * n, n, figure->factor, error) : NULL;
+        for (int i = 1; i < 4; i++) leave_out(cuts, k * n, n, figure->least, part[k][i]);
         if (!part[k][0] || !part[k][1] || (bands && (!part[k][2] || !part[k][3]))) status = SCREE_ERROR_IO;
         (void)snprintf(label[k], sizeof label[k], "height %.2g", plan->average.height[k]);
         line[k] = (scree_chart_line){.x = part[k][0],
@@ -136,6 +157,8 @@ static const map_figure map_figures[] = {
      "pressure_angle"},
     {MEASURE_MAP, "map-stress-horizontal", "stress_xx_inside", "Horizontal pressure inside",
      "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NULL},
+    {MEASURE_MAP, "map-stress-change", "stress_change_yy", "Change of the vertical pressure",
+     "change of the vertical pressure (kPa)", -1e-3, SCREE_COLOUR_DIVERGING, NULL},
     {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor, and its major axis", "tr F", 1, SEQUENTIAL,
      "fabric_angle"},
     {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes, and their mean direction",
@@ -144,12 +167,16 @@ static const map_figure map_figures[] = {
      NULL},
     {MEASURE_MAP, "map-strain-vertical", "bagi_yy", "Vertical strain (cells), compression positive", "strain", -1,
      SCREE_COLOUR_DIVERGING, NULL},
+    {MEASURE_MAP, "map-displacement", "displacement_y", "Displacement in y since the earlier state",
+     "displacement (um)", 1e6, SCREE_COLOUR_DIVERGING, NULL},
+    {MEASURE_MAP, "map-bulk-modulus", "bulk_modulus_inside", "Bulk modulus inside", "K (MPa)", 1e-6, SEQUENTIAL, NULL},
     {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
      NULL},
     {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "vertical pressure (kPa)",
      -1e-3, SEQUENTIAL, NULL},
     {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth",
      "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NULL},
+    {MEASURE_KERNEL, "kernel-bulk-modulus", "bulk_modulus", "Bulk modulus, smooth", "K (MPa)", 1e-6, SEQUENTIAL, NULL},
     {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "shear stress (kPa)", 1e-3,
      SCREE_COLOUR_DIVERGING, NULL},
 };
@@ -327,5 +354,6 @@ scree_status measure_draw(const char *folder, const measure_plan *plan, const me
         status = draw_map(folder, found, &map_figures[k], error);
     if (!status) status = draw_distribution(folder, found, error);
     if (!status) status = draw_friction(folder, found, error);
-    return status ? status : draw_rose(folder, found, error);
+    if (!status) status = draw_rose(folder, found, error);
+    return status ? status : measure_draw_clouds(folder, plan, found, error);
 }

@@ -33,7 +33,7 @@ static bool read_number(const char *text, double *value)
 
 static scree_status read_fields(const char *text, unsigned *fields, scree_error *error)
 {
-    const char *accepted = "density, coordination, stress, fabric, inertia, velocity";
+    const char *accepted = "density, coordination, stress, fabric, inertia, velocity, elastic";
     *fields = 0;
     for (const char *at = text; *at;) {
         const size_t length = strcspn(at, ",");
@@ -135,6 +135,9 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
     if (options->points != 0) plan->average.points = (size_t)options->points;
     scree_status status = read_fields(options->fields ? options->fields : "density,coordination,stress,fabric",
                                       &plan->average.fields, error);
+    if (!status && plan->average.fields & SCREE_AVERAGE_ELASTIC && !plan->from)
+        status = refuse(error, "fields", "elastic with --from: start, #N, or a stage",
+                        "elastic constants need two states of the run: say the earlier one");
     if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
     if (!status && options->element) status = read_element(options->element, &plan->average, error);
     if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);

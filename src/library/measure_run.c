@@ -3,6 +3,7 @@
 
 #include "average/chains.h"
 #include "average/force_statistics.h"
+#include "average/increment.h"
 #include "base/units.h"
 
 #include <math.h>
@@ -12,10 +13,8 @@
 #include <string.h>
 
 enum {
-    USUAL = 150,  ///< grains of an element unless the user says
-    SHARE = 10,   ///< and in small samples the whole over this
-    GRID_X = 100, ///< points of smooth fields unless there is a grid
-    GRID_Y = 50
+    USUAL = 150, ///< grains of an element unless the user says
+    SHARE = 10   ///< and in small samples the whole over this
 };
 
 void measure_tables_destroy(measure_tables *tables)
@@ -41,8 +40,8 @@ static void list_stages(const scree_snapshot_mark *mark, size_t count, char *tex
 {
     size_t used = (size_t)snprintf(text, size, "start, end, #N for snapshot N, an axial strain of the run");
     for (size_t k = 0; k < count && used < size; k++)
-        if (k == 0 || strcmp(mark[k].stage, mark[k - 1].stage) != 0)
-            used += (size_t)snprintf(text + used, size - used, ", %s", mark[k].stage);
+        if (k == 0 || strcmp(mark[k].stage_name, mark[k - 1].stage_name) != 0)
+            used += (size_t)snprintf(text + used, size - used, ", %s", mark[k].stage_name);
 }
 
 static scree_status refuse_when(const char *directory, const char *option, const char *when,
@@ -63,7 +62,8 @@ static scree_status find_mark(const char *directory, const char *option, const c
     *found = strcmp(when, "start") == 0 ? 0 : count - 1;
     if (strcmp(when, "end") == 0 || strcmp(when, "start") == 0) return SCREE_OK;
     for (size_t k = count; k-- > 0;)
-        if (strcmp(mark[k].stage, when) == 0 || (*when == '#' && strtoll(when + 1, NULL, 10) == mark[k].index)) {
+        if (scree_snapshot_mark_is_of(&mark[k], when) ||
+            (*when == '#' && strtoll(when + 1, NULL, 10) == mark[k].index)) {
             *found = k;
             return SCREE_OK;
         }
@@ -123,84 +123,32 @@ static scree_status tell_chains(const scree_average_sample *sample, const measur
     return SCREE_OK;
 }
 
-static scree_average_points points_of(const scree_average_view *view, const scree_average_plan *plan)
+/// What the two states say together.
+static scree_status tell_increments(scree_average_sample *before, scree_average_sample *sample, double grains,
+                                    scree_average_table *values, scree_error *error)
 {
-    const scree_average_sample *sample = view->sample;
-    const double *low = view->frame.low, *high = view->frame.high;
-    scree_average_points points = {.number = {GRID_X, GRID_Y, 1}};
-    if (sample->dimension == 3) points.number[0] = points.number[1] = points.number[2] = GRID_Y;
-    if (plan->grid[0] > 0) scree_average_grid(plan, sample->dimension, points.number);
-    for (int k = 0; k < 3; k++) {
-        points.gap[k] = (high[k] - low[k]) / (double)points.number[k];
-        points.first[k] = low[k] + 0.5 * points.gap[k];
-        if (k < sample->dimension) continue;
-        points.first[k] = 0;
-        points.gap[k] = 1;
-        points.number[k] = 1;
-    }
-    return points;
-}
-
-/// Rows of the smooth fields.
-static scree_status fill_kernel_table(const scree_average_kernel *kernel, scree_average_table *table,
-                                      scree_error *error)
-{
-    const size_t d = (size_t)kernel->dimension, *n = kernel->points.number;
-    char name[32];
-    scree_status status = SCREE_OK;
-    for (size_t p = 0; p < kernel->count && !status; p++) {
-        const size_t number[3] = {p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
-        status = scree_average_table_begin_row(table, error);
-        if (status) break;
-        for (size_t a = 0; a < d; a++)
-            scree_average_table_take(table, (const char *[]){"x", "y", "z"}[a], "m",
-                                     kernel->points.first[a] + (double)number[a] * kernel->points.gap[a]);
-        scree_average_table_take(table, "density", "kg/m3", kernel->density[p]);
-        scree_average_table_take(table, "volume_fraction", "1", kernel->fraction[p]);
-        for (size_t a = 0; a < d * d; a++) {
-            (void)snprintf(name, sizeof name, "stress_%c%c", "xyz"[a / d], "xyz"[a % d]);
-            scree_average_table_take(table, name, "Pa", kernel->stress[d * d * p + a]);
-        }
-        for (size_t a = 0; a < d; a++) {
-            (void)snprintf(name, sizeof name, "boundary_%c", "xyz"[a]);
-            scree_average_table_take(table, name, "N/m3", kernel->boundary[d * p + a]);
-        }
-        for (size_t a = 0; a < d; a++) {
-            (void)snprintf(name, sizeof name, "velocity_%c", "xyz"[a]);
-            scree_average_table_take(table, name, "m/s", kernel->momentum[d * p + a] / kernel->density[p]);
-        }
-        status = scree_average_table_end_row(table, error);
-    }
+    double value[SCREE_INCREMENT_ROWS];
+    if (!sample->earlier) return SCREE_OK;
+    scree_status status = scree_average_increment_find(before, sample, grains, value, error);
+    for (size_t k = 0; k < SCREE_INCREMENT_ROWS && !status; k++)
+        scree_average_table_take(values, scree_increment_rows[k].name, scree_increment_rows[k].unit, value[k]);
     return status;
 }
 
-static scree_status measure_kernel(scree_average_sample *sample, const scree_average_view *view,
-                                   const measure_plan *plan, measure_tables *tables, scree_error *error)
-{
-    const double width = plan->kernel_width > 0 ? plan->kernel_width : 2 * plan->kernel_diameters * sample->mean_radius;
-    const scree_average_points points = points_of(view, &plan->average);
-    scree_average_kernel kernel;
-    scree_status status = scree_average_kernel_find(sample, width, &points, true, plan->threads, &kernel, error);
-    if (status) return status;
-    const scree_average_balance balance = scree_average_kernel_balance(sample, &kernel);
-    scree_average_table *values = &tables->of[MEASURE_VALUES];
-    scree_average_table_take(values, "kernel_width", "m", width);
-    scree_average_table_take(values, "kernel_residual", "1", balance.residual / balance.scale);
-    scree_average_table_take(values, "kernel_imbalance", "1", balance.rest / balance.scale);
-    status = fill_kernel_table(&kernel, &tables->of[MEASURE_KERNEL], error);
-    scree_average_kernel_destroy(&kernel);
-    return status;
-}
-
-static scree_status measure_view(scree_average_sample *sample, const scree_average_view *view, const measure_plan *plan,
-                                 measure_tables *tables, scree_error *error)
+/// before: the earlier state, finished where elastic constants are asked for.
+static scree_status measure_view(scree_average_sample *before, scree_average_sample *sample,
+                                 const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
+                                 scree_error *error)
 {
     scree_average_table *values = &tables->of[MEASURE_VALUES];
     scree_status status = scree_average_table_begin_row(values, error);
     if (!status) tell_whole(view, values);
     if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
     if (!status) status = tell_chains(sample, plan, values, error);
-    if (!status && plan->kernel) status = measure_kernel(sample, view, plan, tables, error);
+    if (!status)
+        status = tell_increments(before, sample, plan->average.grains > 0 ? plan->average.grains : view->grains, values,
+                                 error);
+    if (!status && plan->kernel) status = measure_kernel(before, sample, view, plan, tables, error);
     if (!status) status = scree_average_table_end_row(values, error);
     if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);
     if (!status && plan->average.grid[0] > 0)
@@ -212,7 +160,8 @@ static scree_status measure_view(scree_average_sample *sample, const scree_avera
 }
 
 /// What a reader has to know of the run before he believes its averages.
-static void warn(const char *directory, const measure_plan *plan, const scree_average_view *view)
+static void warn(const char *directory, const measure_plan *plan, const scree_average_sample *before,
+                 const scree_average_view *view)
 {
     const scree_average_sample *sample = view->sample;
     if (view->grains < MEASURE_FEW)
@@ -223,19 +172,22 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
                     "force (averages of stress miss what moves the grains)",
                     directory, sample->unbalanced_ratio);
+    if (before->own && !(before->unbalanced_ratio < MEASURE_AT_REST))
+        measure_say(
+            plan,
+            "warning: %s: the earlier state was not at rest, by %.3g of the mean contact force: what has changed "
+            "is not elastic",
+            directory, before->unbalanced_ratio);
 }
 
-/// Moves the grains from where they were in the snapshot `from`, if any.
-static scree_status move(const char *directory, const scree_snapshot_mark *from, scree_average_sample *sample,
-                         scree_error *error)
+/// Moves the grains from where they were in the snapshot `from`, if any, which `before` then is.
+static scree_status move(const char *directory, const scree_snapshot_mark *from, const measure_plan *plan,
+                         scree_average_sample *before, scree_average_sample *sample, scree_error *error)
 {
-    scree_average_sample before;
     if (!from) return SCREE_OK;
-    scree_status status = scree_sample_read(directory, from->index, &before, error);
-    if (status) return status;
-    status = scree_average_move(sample, &before, error);
-    scree_average_sample_destroy(&before);
-    return status;
+    scree_status status = scree_sample_read(directory, from->index, before, error);
+    if (!status && plan->average.fields & SCREE_AVERAGE_ELASTIC) status = scree_average_sample_finish(before, error);
+    return status ? status : scree_average_move(sample, before, error);
 }
 
 /// frame: where places are, found by the first one of several; NULL: there is one.
@@ -243,13 +195,13 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
                                      const scree_snapshot_mark *from, const measure_plan *plan, bool first,
                                      scree_average_frame *frame, measure_tables *tables, scree_error *error)
 {
-    scree_average_sample sample;
+    scree_average_sample sample, before = {0};
     scree_average_view view;
     measure_plan own = *plan;
     own.average.frame = first ? NULL : frame;
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
-    status = move(directory, from, &sample, error);
+    status = move(directory, from, plan, &before, &sample, error);
     if (!status) status = scree_average_sample_finish(&sample, error);
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
@@ -261,10 +213,11 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
     if (!status) {
         if (first && frame) *frame = view.frame;
-        if (first) warn(directory, plan, &view);
-        status = measure_view(&sample, &view, &own, tables, error);
+        if (first) warn(directory, plan, &before, &view);
+        status = measure_view(&before, &sample, &view, &own, tables, error);
         scree_average_view_close(&view);
     }
+    scree_average_sample_destroy(&before);
     scree_average_sample_destroy(&sample);
     if (status && error && !error->file[0]) (void)snprintf(error->file, sizeof error->file, "%s", directory);
     return status;
@@ -290,7 +243,7 @@ static scree_status average_over(const measure_tables *each, size_t count, measu
 static bool is_meant(const measure_plan *plan, bool by_number, unsigned long last, const scree_snapshot_mark *mark,
                      size_t count, size_t k)
 {
-    return by_number ? k + last >= count : strcmp(mark[k].stage, plan->at) == 0;
+    return by_number ? k + last >= count : scree_snapshot_mark_is_of(&mark[k], plan->at);
 }
 
 static scree_status measure_stage(const char *directory, const scree_snapshot_mark *mark, size_t count,

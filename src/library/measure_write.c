@@ -46,18 +46,18 @@ static scree_status write_table(const char *folder, const measure_found *found, 
     return scree_replace_finish(path, file, true, error);
 }
 
-static scree_status write_dips(const char *folder, const measure_plan *plan, const measure_found *found,
-                               scree_error *error)
+static scree_status write_dips(const char *folder, const char *name, const measure_plan *plan,
+                               const scree_average_dip *dips, scree_error *error)
 {
     char path[PATH_MAX];
     FILE *file;
-    if (!found->dip) return SCREE_OK;
-    scree_status status = scree_path_join(path, sizeof path, folder, "dips.csv", error);
+    if (!dips) return SCREE_OK;
+    scree_status status = scree_path_join(path, sizeof path, folder, name, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (status) return status;
     fputs("height [1],dip [1],dip_low [1],dip_high [1],checked [1],p [1],place [1],centre [1],most [1]\n", file);
     for (size_t k = 0; k < plan->average.cuts; k++) {
-        const scree_average_dip *d = &found->dip[k];
+        const scree_average_dip *d = &dips[k];
         fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", plan->average.height[k], d->dip, d->low,
                 d->high, d->checked, d->p, d->place, d->centre, d->most);
     }
@@ -76,6 +76,12 @@ static void set_warnings(scree_summary *summary, const scree_average_table *valu
         const size_t used = strlen(text);
         (void)snprintf(text + used, sizeof text - used, "%snot at rest, unbalanced ratio %.3g", used ? "; " : "", rest);
     }
+    const size_t earlier = scree_average_table_find(values, "earlier_unbalanced");
+    if (earlier != SIZE_MAX && !(values->value[earlier] < MEASURE_AT_REST)) {
+        const size_t used = strlen(text);
+        (void)snprintf(text + used, sizeof text - used, "%sthe earlier state not at rest, unbalanced ratio %.3g",
+                       used ? "; " : "", values->value[earlier]);
+    }
     scree_summary_set_text(summary, "warnings", text);
 }
 
@@ -92,6 +98,17 @@ static void set_values(scree_summary *summary, const measure_found *found)
         scree_summary_set_number(summary, name, found->low.of[MEASURE_VALUES].value[k]);
         (void)snprintf(name, sizeof name, "%s_high", mean->column[k].name);
         scree_summary_set_number(summary, name, found->high.of[MEASURE_VALUES].value[k]);
+    }
+    if (found->strain_dip) {
+        // One sample has it among its values.
+        if (found->runs > 1) {
+            scree_summary_set_number(summary, "strain_dip", found->strain_dip->dip);
+            scree_summary_set_number(summary, "strain_dip_low", found->strain_dip->low);
+            scree_summary_set_number(summary, "strain_dip_high", found->strain_dip->high);
+        }
+        scree_summary_set_number(summary, "strain_dip_checked", found->strain_dip->checked);
+        scree_summary_set_number(summary, "strain_dip_p", found->strain_dip->p);
+        scree_summary_set_number(summary, "strain_dip_place", found->strain_dip->place);
     }
     if (!found->dip) return;
     scree_summary_set_number(summary, "dip", found->dip->dip);
@@ -120,6 +137,7 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
 {
     scree_status status = SCREE_OK;
     for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) status = write_table(folder, found, k, error);
-    if (!status) status = write_dips(folder, plan, found, error);
+    if (!status) status = write_dips(folder, "dips.csv", plan, found->dip, error);
+    if (!status) status = write_dips(folder, "strain-dips.csv", plan, found->strain_dip, error);
     return status ? status : write_summary(folder, found, error);
 }

@@ -18,6 +18,7 @@
 #include "comm/comm.h"
 #include "measure/measure.h"
 
+#include <math.h>
 #include <string.h>
 
 void scree_gravity_find(const scree_model *model, const scree_state *state, uint64_t ticks, double gravity[3])
@@ -29,6 +30,23 @@ void scree_gravity_find(const scree_model *model, const scree_state *state, uint
         gravity[k] = scree_config_is_open(own)
                          ? scree_schedule_at(&model->gravity_of_case[k], stage->first_time + since)
                          : scree_schedule_at(&own[k], since);
+}
+
+bool scree_gravity_is_final(const scree_model *model, const scree_state *state)
+{
+    const scree_stage_state *stage = &state->stage;
+    const scree_schedule *own = model->stages[stage->index].gravity;
+    const bool open = scree_config_is_open(own);
+    const double since = (double)(state->step - stage->first_step) * state->tick + (open ? stage->first_time : 0);
+    bool final = true;
+    for (int k = 0; k < 3; k++) {
+        const scree_schedule *s = open ? &model->gravity_of_case[k] : &own[k];
+        double last = -INFINITY;
+        if (s->form == SCREE_SCHEDULE_RAMP || s->form == SCREE_SCHEDULE_SMOOTH) last = s->begin + s->duration;
+        if (s->form == SCREE_SCHEDULE_TABLE) last = s->row[(s->count - 1) * scree_schedule_stride(s->columns)];
+        final = final && since >= last;
+    }
+    return final;
 }
 
 /// sum m by . x over the bodies that are here [J].

@@ -85,6 +85,9 @@ static const scree_key keys[] = {
     TORQUE("x", 0),
     TORQUE("y", 1),
     TORQUE("z", 2),
+    NUMBER(config, until_force, "N", .standard = "auto", ABOVE("0 N"), TO("1e15 N"),
+           .meaning = "The velocity of the selection ends when all other forces on it together reach this against it; "
+                      "from then on this force acts along it instead, on the whole selection: a piston. auto: never."),
     CHOICE(config, per, pers, .standard = "body", .meaning = "What forces and torques are on."),
     CHOICE(config, attack, attacks, .standard = "centre", .meaning = "Where forces act."),
     KEY(config, direction, SCREE_KEY_VECTOR, .unit = "1", .standard = "[0, 0]", FROM("-1e6"), TO("1e6"),
@@ -126,6 +129,9 @@ static const scree_field fields[] = {
     LOAD(acts, int64_t, SCREE_FIELD_INT64, "1", "1: the load acts in the present stage", SCREE_RANGE(0, 1)),
     LOAD(begun, double, SCREE_FIELD_DOUBLE, "s", "when it began to act"),
     LOAD(work, double, SCREE_FIELD_DOUBLE, "J", "work of the load on the bodies"),
+    {SCREE_FIELD_OF(prescribed, SCREE_ROWS_FIXED, "prescribed/given", SCREE_FIELD_DOUBLE, 3, "N",
+                    "force on the selection in place of a velocity that has ended; 0: it has not"),
+     .fixed = SCREE_LOADS, .array_offset = offsetof(own, given), .stride = sizeof(scree_vector)},
 };
 
 /// Loads are those of the case, and there is room for all that they need.
@@ -156,9 +162,11 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
 {
     const own *all = scree_prescribed_of(state);
-    for (int64_t k = 0; k < model->load_count; k++)
-        if (scree_prescribed_config_of(model->loads, k))
-            c = scree_checksum_number(scree_checksum_number(c, all->begun[k]), all->work[k]);
+    for (int64_t k = 0; k < model->load_count; k++) {
+        const config *said = scree_prescribed_config_of(model->loads, k);
+        if (said) c = scree_checksum_number(scree_checksum_number(c, all->begun[k]), all->work[k]);
+        for (int d = 0; d < 3 && said && said->until_force > 0; d++) c = scree_checksum_number(c, all->given[k][d]);
+    }
     return c;
 }
 

@@ -29,6 +29,7 @@ typedef struct scree_prescribed_config {
     int per;                               ///< scree_per
     int attack;                            ///< scree_attack
     double direction[3]; ///< 1, from the centre to where a force acts on the surface; none: where it turns nothing
+    double until_force;  ///< N, against the velocity, with which it ends and which then acts; not above 0: never
 } scree_prescribed_config;
 
 typedef enum scree_per { SCREE_PER_BODY, SCREE_PER_SELECTION } scree_per;
@@ -63,9 +64,10 @@ typedef struct scree_prescribed {
     uint32_t *row; ///< the first `listed`: rows of bodies that a load prescribes, or whose `exerted` it has made; from
                    ///< the begin of a step to the search, and from there to its end (derived)
     uint64_t listed;
-    int64_t acts[SCREE_LOADS]; ///< 1: in the present stage
-    double begun[SCREE_LOADS]; ///< s
-    double work[SCREE_LOADS];  ///< J, on the bodies
+    int64_t acts[SCREE_LOADS];       ///< 1: in the present stage
+    double begun[SCREE_LOADS];       ///< s
+    double work[SCREE_LOADS];        ///< J, on the bodies
+    scree_vector given[SCREE_LOADS]; ///< N, on the selection, in place of the velocity that has ended; 0: it has not
 } scree_prescribed;
 
 static inline scree_prescribed *scree_prescribed_of(const scree_state *state)

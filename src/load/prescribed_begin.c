@@ -65,8 +65,10 @@ static scree_status own_body(const scree_context *c, int64_t load, size_t row, s
     scree_state *state = c->state;
     scree_status status = SCREE_OK;
     for (int d = 0; d < SCREE_COMPONENTS && !status; d++) {
-        bool drives = scree_prescribed_drives(own, d);
-        if (!scree_component_exists(state->dimension, d) || !(drives || scree_prescribed_pushes(own, d))) continue;
+        const bool ended = d < 3 && scree_prescribed_of(state)->given[load][d] != 0;
+        bool drives = scree_prescribed_drives(own, d) && !ended;
+        if (!scree_component_exists(state->dimension, d) || !(drives || ended || scree_prescribed_pushes(own, d)))
+            continue;
         status = own_component(c, load, row, d, error);
         if (drives) state->held[row] |= (uint8_t)(1 << d);
     }
@@ -124,7 +126,10 @@ scree_status scree_prescribed_begin(const scree_context *c, scree_error *error)
     memset(all->owner, 0, state->count * sizeof *all->owner);
     for (int64_t load = 0; load < c->model->load_count && !status; load++) {
         bool acts = acts_now(c, load);
-        if (acts && !all->acts[load]) all->begun[load] = scree_state_time(state);
+        if (acts && !all->acts[load]) {
+            all->begun[load] = scree_state_time(state);
+            memset(all->given[load], 0, sizeof all->given[load]);
+        }
         all->acts[load] = acts;
         if (acts) status = own_selection(c, load, error);
     }

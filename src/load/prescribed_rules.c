@@ -88,6 +88,25 @@ static void check_use(judged *j)
                           "not used without a force or a torque");
 }
 
+/// What a piston is told: how fast, one velocity for all.
+static void check_until(judged *j)
+{
+    bool linear = false, moves = false;
+    if (!(j->own->until_force > 0)) return;
+    for (int k = 0; k < 9; k++) linear = linear || !isnan(j->own->gradient[k]);
+    for (int d = 0; d < 3; d++) {
+        const double velocity = scree_schedule_at(&j->own->motion[d], 0);
+        moves = moves || (!isnan(velocity) && (velocity != 0 || !scree_schedule_is_constant(&j->own->motion[d])));
+    }
+    if (!moves)
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "until_force"), NULL,
+                          "there is no velocity that could end with it: give velocity_x, velocity_y or velocity_z");
+    else if (linear || !scree_load_profile_is_uniform(&j->own->profile))
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "until_force"), "auto",
+                          "all particles of a selection that moves until a force have one velocity: leave out gradient "
+                          "and profile");
+}
+
 /// Names of columns and results are told apart.
 static void check_name(judged *j)
 {
@@ -172,6 +191,7 @@ void scree_prescribed_rules(scree_reader *reader, const scree_config *config)
         scree_load_check_stages(j.reader, j.config, j.index, j.own->from, j.own->until);
         check_components(&j);
         check_use(&j);
+        check_until(&j);
         check_name(&j);
         check_others(&j);
         check_boundaries(&j);

@@ -17,6 +17,10 @@
 /// or where a prescription has just begun, is a shock with the work 1/2 m (v - u)(v + u - h a): T(n) is m/2 (u - h a) u
 /// to the step that begins, and the work of F(n) in it is counted with v.
 ///
+/// Until a force. Where a load has one, the force of all others (gravity, too) against the velocity of its bodies is
+/// summed with R(n); at the first step at which it reaches that of the load the velocity ends: from the next step on
+/// the bodies are free in its direction, and the force of the load acts on them.
+///
 /// Forces are sums in integers, work is a sum in integers: neither the order of rows nor that of loads shows. Cost: two
 /// passes over 16 bytes a body, which list the bodies concerned, and some 50 ns for each of these.
 #include "base/fixed.h"
@@ -140,8 +144,9 @@ static void read_orders(const scree_context *c, double middle, order list[SCREE_
         list[k] = (order){0};
         if (k >= c->model->load_count || !all->acts[k]) continue;
         const scree_prescribed_config *own = list[k].own = scree_prescribed_config_of(c->model->loads, k);
-        if (own->per == SCREE_PER_SELECTION && !counted) count_bodies(c->state, bodies);
-        counted = counted || own->per == SCREE_PER_SELECTION;
+        const bool shared = own->per == SCREE_PER_SELECTION || own->until_force > 0;
+        if (shared && !counted) count_bodies(c->state, bodies);
+        counted = counted || shared;
         double share = own->per == SCREE_PER_SELECTION ? 1 / fmax(1, (double)bodies[k]) : 1;
         list[k].factor = scree_schedule_at(&own->factor, middle - all->begun[k]);
         for (int d = 0; d < SCREE_COMPONENTS; d++) {
@@ -149,6 +154,7 @@ static void read_orders(const scree_context *c, double middle, order list[SCREE_
             double push = scree_schedule_at(&own->push[d], now - all->begun[k]);
             list[k].motion[d] = isnan(motion) ? 0 : motion;
             list[k].push[d] = isnan(push) ? 0 : share * push;
+            if (d < 3 && all->given[k][d] != 0) list[k].push[d] = all->given[k][d] / fmax(1, (double)bodies[k]);
         }
     }
 }
@@ -251,6 +257,15 @@ static void take_half_work(scree_state *state)
 
 // ---- before and behind the first half ----------------------------------------------------------------------------
 
+/// Velocities that have ended with a force drive their bodies no more.
+static void release_ended(scree_state *state, size_t row)
+{
+    const scree_prescribed *all = scree_prescribed_of(state);
+    for (int d = 0; d < 3; d++)
+        if (drives(state, row, d) && all->given[all->owner[row][d] - 1][d] != 0)
+            state->held[row] &= (uint8_t) ~(1U << d);
+}
+
 scree_status scree_prescribed_depart(const scree_context *c, scree_error *error)
 {
     scree_state *state = c->state;
@@ -261,6 +276,7 @@ scree_status scree_prescribed_depart(const scree_context *c, scree_error *error)
         const uint32_t row = all->row[listed];
         scree_departure *departure = &all->departure[row];
         scree_vector force, torque;
+        if (state->held[row]) release_ended(state, row);
         if (!state->held[row]) continue;
         scree_body_force(c->model, state, row, force, torque);
         scree_body_position(state, row, departure->position);
@@ -418,6 +434,44 @@ static void hold_body(const scree_context *c, size_t row, const order *list)
     }
 }
 
+/// Adds the forces of all others on a body against the velocity of the load that drives it [N].
+static void add_resistance(const scree_context *c, size_t row, const order *list, scree_integer_sum sum[SCREE_LOADS])
+{
+    scree_state *state = c->state;
+    const scree_prescribed *all = scree_prescribed_of(state);
+    for (int d = 0; d < state->dimension; d++) {
+        if (!drives(state, row, d)) continue;
+        const int load = all->owner[row][d] - 1;
+        const double speed = scree_length(list[load].motion);
+        int64_t others = *sum_of(state, row, d);
+        if (!(list[load].own->until_force > 0) || !(speed > 0)) continue;
+        scree_wrapping_subtract(&others, all->exerted[row].quanta[d]);
+        const double force =
+            scree_fixed_to(others, quantum_of(state, d)) + inertia_of(state, row, d) * c->model->gravity[d];
+        scree_integer_sum_add(&sum[load], -force * list[load].motion[d] / speed);
+    }
+}
+
+/// Ends velocities that meet the force with which they end.
+static void find_ended(const scree_context *c, const order *list)
+{
+    scree_prescribed *all = scree_prescribed_of(c->state);
+    scree_integer_sum sum[SCREE_LOADS] = {0};
+    bool waits = false;
+    for (int k = 0; k < SCREE_LOADS; k++)
+        waits = waits || (list[k].own && list[k].own->until_force > 0 && scree_length(all->given[k]) == 0);
+    if (!waits) return;
+    while (scree_comm_sum_next(c->state, sum, SCREE_LOADS))
+        for (uint64_t k = 0; k < all->listed; k++)
+            if (c->state->held[all->row[k]]) add_resistance(c, all->row[k], list, sum);
+    for (int k = 0; k < SCREE_LOADS; k++) {
+        if (!list[k].own || !(list[k].own->until_force > 0) || scree_length(all->given[k]) > 0) continue;
+        const double speed = scree_length(list[k].motion), limit = list[k].own->until_force;
+        if (!(speed > 0) || scree_integer_sum_total(&sum[k]) < limit) continue;
+        for (int d = 0; d < 3; d++) all->given[k][d] = limit * list[k].motion[d] / speed;
+    }
+}
+
 scree_status scree_prescribed_hold(const scree_context *c, scree_error *error)
 {
     const scree_prescribed *all = scree_prescribed_of(c->state);
@@ -426,6 +480,7 @@ scree_status scree_prescribed_hold(const scree_context *c, scree_error *error)
     read_orders(c, next_middle(c), list);
     for (uint64_t k = 0; k < all->listed; k++)
         if (c->state->held[all->row[k]]) hold_body(c, all->row[k], list);
+    find_ended(c, list);
     take_half_work(c->state);
     take_half_surface_work(c->state);
     return SCREE_OK;

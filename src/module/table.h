@@ -34,23 +34,25 @@
 /// Kinds of selections, in the order in which the case reference lists them.
 #define SCREE_SELECTION_MODULES(row)                                                                                   \
     row(select_all) row(select_box) row(select_circle) row(select_sphere) row(select_band) row(select_layer)           \
-        row(select_side) row(select_ids) row(select_species) row(select_and) row(select_or) row(select_not)
+        row(select_side) row(select_top) row(select_ids) row(select_species) row(select_and) row(select_or)            \
+            row(select_not)
 
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
     SCREE_SHAPES(row)                                                                                                  \
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(gear) row(drop_and_roll) row(hexagonal)          \
-        row(square) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(dense) row(pair)           \
-            row(bodies) row(empty) row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax) \
-                row(iterate) row(collide) row(bond) row(pour) row(point) row(line) row(region) row(background_damping) \
-                    row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh) row(wall_polygon)            \
-                        row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
+        row(square) row(centred_rectangular) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth)       \
+            row(dense) row(pair) row(bodies) row(file) row(empty) row(prepare) row(confine) row(compress) row(deform)  \
+                row(rotate_particle) row(relax) row(iterate) row(collide) row(bond) row(pour) row(point) row(line)     \
+                    row(region) row(background_damping) row(prescribed) row(plane) row(box) row(cylinder) row(cone)    \
+                        row(mesh) row(wall_polygon) row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) \
+                            row(power_law) row(table) row(grading)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \
     row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
-        row(slopes) row(pile) row(finite_elements) row(orientation)
+        row(slopes) row(pile) row(increments) row(response) row(finite_elements) row(orientation)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

@@ -1,6 +1,7 @@
 /// Rules of the bodies that a prepare stage lists: as many as the case says, of its dimension, materials and sizes,
 /// inside of their box, and not deeper in each other than the guard allows.
 #include "prepare/bodies.h"
+#include "prepare/given.h"
 
 #include "base/vectors.h"
 #include "case/case.h"
@@ -111,21 +112,13 @@ static void check_radius(const listed *l, int64_t index, const shown *s)
     refuse(l, index, "radius", NULL, message);
 }
 
-/// Whether the first stage of motion has plates, or a cell, where the box is.
-static bool has_box(const scree_config *config)
-{
-    if (config->stage_count < 2) return true;
-    const scree_boundary *boundary = scree_config_held_by(config, 1);
-    return !boundary || !boundary->open;
-}
-
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.
 static void check_inside(const listed *l, int64_t index, const shown *s)
 {
     const bool in_3d = l->config->dimension == 3;
     const double side[3] = {l->stage->width, in_3d ? l->stage->depth : l->own->height, l->own->height};
     static const char *const names[2][3] = {{"width", "height", ""}, {"width", "depth", "height"}};
-    for (int c = 0; c < l->config->dimension && s->placed && has_box(l->config); c++) {
+    for (int c = 0; c < l->config->dimension && s->placed && scree_given_has_box(l->config); c++) {
         bool periodic = l->config->boundary.periodic >> c & 1;
         double reach = periodic ? 0 : s->radius * (1 - l->config->guard.overlap), at = s->body->position[c];
         char message[200];
@@ -175,45 +168,14 @@ static void check_overlap(const listed *l, int64_t index, const shown *s)
     }
 }
 
-/// Whether a stage brings the particles that are not listed.
-static bool pours(const scree_config *config)
-{
-    for (int64_t i = 0; i < config->stage_count; i++)
-        if (config->stages[i].kind >= 0 && scree_modules[config->stages[i].kind]->numbers->pours) return true;
-    return false;
-}
-
-static void check_count(const listed *l)
-{
-    const scree_node *node = scree_node_find(scree_node_find(l->reader->root, "particles"), "count");
-    const bool fewer = pours(l->config) && l->own->body_count <= l->config->particles.count;
-    if (!node || l->config->particles.count == l->own->body_count || fewer) return;
-    char accepted[32];
-    (void)snprintf(accepted, sizeof accepted, "%lld", (long long)l->own->body_count);
-    scree_problem_add(l->reader, node->place, "particles.count", node->text, accepted, "stages.0 lists %s bodies",
-                      accepted);
-}
-
 void scree_bodies_rules(scree_reader *reader, const scree_config *config)
 {
     const scree_config_stage *stage = scree_config_prepare(config);
     if (!stage || scree_config_prepared(stage)->method != SCREE_SLOT_bodies || scree_bodies_of(stage)->body_count == 0)
         return;
     const scree_node *node = scree_node_at(scree_node_find(reader->root, "stages"), 0);
-    const scree_node *outline = scree_node_find(node, "outline");
     listed l = {reader, config, scree_config_prepared(stage), scree_bodies_of(stage), scree_node_find(node, "bodies")};
-    if (outline && scree_config_prepared(stage)->outline != SCREE_SAMPLE_BOX) {
-        scree_problem_add(reader, outline->place, "stages.0.outline", outline->text, "box",
-                          "bodies that are listed are not cut out of a larger packing");
-        return; // a round sample has no sides
-    }
-    if (config->particles.species_count > 0) {
-        scree_rule_refuse(reader, "particles.species", NULL,
-                          "bodies that are listed have their own materials and sizes: give particles.material and the "
-                          "sizes in place of species");
-        return;
-    }
-    check_count(&l);
+    if (!scree_given_rules(reader, config, (size_t)l.own->body_count)) return;
     for (int64_t i = 0; i < l.own->body_count; i++) {
         shown s = show(&l, i);
         if (s.node->kind != SCREE_NODE_MAPPING) continue; // noted

@@ -1,13 +1,15 @@
 /// Lattices of equal discs or spheres that touch each other, floor and side walls.
 ///
 /// In 2D rows of discs. hexagonal: n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide; or it begins with
-/// n - 1. square: n discs, 2
-/// R apart. In 3D square layers of spheres. face_centred: n x m and (n - 1) x (m - 1) spheres in turn, sqrt(2) R apart.
-/// body_centred: the same numbers, 4 / sqrt(3) R apart, in layers of half that distance: neighbours in a layer do not
-/// touch. cubic: n x m spheres, 2 R apart. The last row or layer may be incomplete; it fills from the left (and the
-/// front). Width auto: the number n whose height over width comes nearest to the aspect ratio (m = n where the depth is
-/// auto too); a given width or depth is lowered to the next that the lattice fills. The model has checked that radii
-/// are equal.
+/// n - 1. centred_rectangular: rows likewise, such that grains of neighbouring rows touch at an angle a from the
+/// horizontal: 4 R cos(a) apart in a row, rows 2 R sin(a) apart; 60 degrees is the triangular lattice, 45 the square
+/// one turned, and above 30 degrees no grain touches any but its four neighbours. 2 R may be another distance, for
+/// polygons that touch with their sides. square: n discs, 2 R apart. In 3D square layers of spheres. face_centred: n x
+/// m and (n - 1) x (m - 1) spheres in turn, sqrt(2) R apart. body_centred: the same numbers, 4 / sqrt(3) R apart, in
+/// layers of half that distance: neighbours in a layer do not touch. cubic: n x m spheres, 2 R apart. The last row or
+/// layer may be incomplete; it fills from the left (and the front). Width auto: the number n whose height over width
+/// comes nearest to the aspect ratio (m = n where the depth is auto too); a given width or depth is lowered to the next
+/// that the lattice fills. The model has checked that radii are equal.
 ///
 /// Periodic in a horizontal direction, no layer is shorter along it. Periodic in the last direction, the layers have to
 /// be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies have to suit
@@ -25,6 +27,7 @@ typedef struct lattice {
     double rise;       ///< distance of layers, in radii
     bool staggered;    ///< every second layer is shifted by half the spacing along each side
     bool later;        ///< the first layer is left out: it begins with a shorter one
+    double distance;   ///< m, of the centres of bodies that touch; 0: two radii
 } lattice;
 
 /// Of `hexagonal`.
@@ -39,6 +42,21 @@ static const scree_choice first_rows[] = {
 static const scree_key keys[] = {
     CHOICE(config, first_row, first_rows, .standard = "long", .when = "method=hexagonal",
            .meaning = "With which of its two kinds of rows the lattice begins."),
+};
+
+/// Of `centred_rectangular`.
+typedef struct angled {
+    double angle;    ///< rad
+    double distance; ///< m; NAN: two radii
+} angled;
+static const scree_key angled_keys[] = {
+    NUMBER(angled, angle, "rad", .standard = "60 degrees", ABOVE("30 degrees"), TO("60 degrees"),
+           .when = "method=centred_rectangular",
+           .meaning = "Of the contacts of neighbouring rows from the horizontal; 60 degrees: the triangular lattice, "
+                      "where grains of a row touch, too."),
+    NUMBER(angled, distance, "m", .standard = "auto", ABOVE("0 m"), TO("200 m"), .when = "method=centred_rectangular",
+           .meaning = "Of the centres of grains that touch; auto: two radii. Of polygons that touch with their sides "
+                      "twice the radius of the circle inside."),
 };
 
 /// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
@@ -90,9 +108,15 @@ static size_t fitting(const lattice *kind, double side, double r, bool periodic)
     return (size_t)fmax(floor((side / r * (1 + 1e-12) - beyond) / kind->spacing), 0);
 }
 
+/// What a lattice is made of [m].
+static double half_distance(const lattice *kind, const scree_packing *packing)
+{
+    return kind->distance > 0 ? 0.5 * kind->distance : packing->radius[0];
+}
+
 static void place_body(scree_packing *packing, size_t i, const lattice *kind, const layers *of)
 {
-    double r = packing->radius[0];
+    const double r = half_distance(kind, packing);
     const size_t skipped = kind->later ? of->full : 0, place = i + skipped;
     size_t pair = of->full + of->shorter, within = place % pair, layer = 2 * (place / pair) + (within >= of->full);
     bool shorter = within >= of->full;
@@ -126,7 +150,7 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
     for (int k = 0; k < packing->dimension - 1; k++)
         if (box->periodic >> k & 1) kind->missing[k] = 0;
     if (count == 0) return SCREE_OK;
-    double r = packing->radius[0];
+    const double r = half_distance(kind, packing);
     const bool in_3d = packing->dimension == 3, deep = in_3d && !isnan(box->depth);
     const bool again[2] = {box->periodic & 1, box->periodic >> 1 & 1};
     size_t m = deep ? fitting(kind, box->depth, r, again[1]) : 0;
@@ -152,26 +176,36 @@ static scree_status place_hexagonal(const scree_model *model, const scree_config
                                     scree_error *error)
 {
     const config *own = scree_config_own(&scree_module_hexagonal, "stages.prepare", stage->own);
-    const lattice rows = {{1, 1}, 2, sqrt(3.0), true, own && own->first_row == 1};
+    const lattice rows = {{1, 1}, 2, sqrt(3.0), true, own && own->first_row == 1, 0};
+    return place_lattice(model, stage, packing, rows, error);
+}
+
+static scree_status place_centred(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                                  scree_error *error)
+{
+    const angled *own = scree_config_own(&scree_module_centred_rectangular, "stages.prepare", stage->own);
+    const double angle = own && own->angle > 0 ? own->angle : M_PI / 3;
+    const double distance = own && own->distance > 0 ? own->distance : 0;
+    const lattice rows = {{1, 1}, 4 * cos(angle), 2 * sin(angle), true, false, distance};
     return place_lattice(model, stage, packing, rows, error);
 }
 
 static scree_status place_upright(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                   scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, 2, false, false}, error);
+    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, 2, false, false, 0}, error);
 }
 
 static scree_status place_face_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(2.0), true, false}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(2.0), true, false, 0}, error);
 }
 
 static scree_status place_body_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, 4 / sqrt(3.0), 2 / sqrt(3.0), true, false}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 4 / sqrt(3.0), 2 / sqrt(3.0), true, false, 0}, error);
 }
 
 static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
@@ -185,6 +219,7 @@ static scree_status check(const scree_model *model, const scree_config_stage *st
 }
 
 static const scree_keys first_row_keys[] = {KEYS_OF("stages.prepare", keys, config)};
+static const scree_keys centred_keys[] = {KEYS_OF("stages.prepare", angled_keys, angled)};
 
 #define LATTICE(title, text, dimension, other, function, keys_, count_, ...)                                           \
     const scree_module scree_module_##title = {                                                                        \
@@ -204,6 +239,8 @@ LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_cent
         1, .lattice = SCREE_LATTICE_HEXAGONAL + 1);
 LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright, NULL, 0,
         .lattice = SCREE_LATTICE_SQUARE + 1);
+LATTICE(centred_rectangular, "centred rectangular lattice of equal discs that touch those of the rows above and below",
+        2, "body_centred", place_centred, centred_keys, 1);
 LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
         "hexagonal", place_face_centred, NULL, 0, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
 LATTICE(body_centred, "body-centred cubic lattice of equal spheres that touch along the diagonals of its cells", 3,

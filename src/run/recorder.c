@@ -128,6 +128,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .time = scree_state_time(&s->state),
                                 .axial_strain = scree_loading_strain(s),
                                 .stage = s->stage->name,
+                                .stage_name = s->model.stages[s->state.stage.index].name,
                                 .restartable = sound,
                                 .case_checksum = recorder->case_checksum};
     const scree_model *model = &s->stage_model;

@@ -1,8 +1,10 @@
 /// Stage `relax`: time passes under gravity. Plates stand where they are; the walls of the case move or stand. Ends
-/// after `duration`, or before when the unbalanced force ratio has been below `unbalanced_limit` for CALM samples.
+/// after `duration`, or before when the unbalanced force ratio has been below `unbalanced_limit` for CALM samples since
+/// the ramp or table that gravity follows came to its end.
 ///
 /// The first such stage looks whether the bodies are where the walls of the case leave room: none may be closer to a
 /// wall than its radius less the overlap that the guard allows.
+#include "load/gravity.h"
 #include "module/key_rows.h"
 #include "run/loading.h"
 #include "run/sample.h"
@@ -30,8 +32,11 @@ static const scree_choice wall_motions[] = {
 };
 static const scree_key keys[] = {
     NUMBER(config, duration, "s", ABOVE("0 s"), TO("1e9 s"), .meaning = "Time after which the stage ends."),
-    NUMBER(config, unbalanced_limit, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
-           .meaning = "It ends before when the unbalanced force ratio stays below this; auto: never."),
+    NUMBER(
+        config, unbalanced_limit, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
+        .meaning =
+            "It ends before when the unbalanced force ratio stays below this, and gravity has come to the end of its "
+            "ramp or table; auto: never."),
     CHOICE(config, walls, wall_motions, .standard = "move", .meaning = "What the walls of the case do."),
 };
 
@@ -89,7 +94,7 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     const config *stage = own_config(s);
     scree_stage_state *state = &s->state.stage;
     double unbalanced = s->sample[SCREE_SAMPLE_UNBALANCED_RATIO];
-    bool calm = unbalanced < stage->unbalanced_limit;
+    bool calm = unbalanced < stage->unbalanced_limit && scree_gravity_is_final(&s->model, &s->state);
     state->counter = calm ? state->counter + 1 : 0;
     bool over = s->state.step - state->first_step >= s->plan.expected;
     *done = over || state->counter >= CALM;

@@ -16,7 +16,6 @@
 #include <strings.h>
 
 enum { HEADER = 80, COUNTED = 84, RECORD = 50, CORNERS = 12 };
-#define MOST_BYTES (SIZE_MAX / 4 < 4000000000U ? SIZE_MAX / 4 : 4000000000U)
 
 // ---- binary ------------------------------------------------------------------------------------------------------
 
@@ -188,26 +187,5 @@ scree_status scree_stl_parse(const char *bytes, size_t length, double (**corner)
     if (!status) return SCREE_OK;
     scree_release(corner);
     *count = 0;
-    return status;
-}
-
-scree_status scree_stl_load(const char *path, char **bytes, size_t *length, scree_error *error)
-{
-    *bytes = NULL;
-    *length = 0;
-    FILE *file = fopen(path, "rbe");
-    if (!file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", path);
-    scree_status status = SCREE_OK;
-    long size = -1;
-    if (fseek(file, 0, SEEK_END) == 0) size = ftell(file);
-    rewind(file);
-    if (size < 0 || (unsigned long)size > MOST_BYTES)
-        status = scree_error_set(error, SCREE_ERROR_IO, "'%s' is no file that can be read, or larger than 4 GB", path);
-    if (!status) status = scree_allocate(bytes, (size_t)size + 1, 1, error);
-    if (!status) *length = fread(*bytes, 1, (size_t)size, file);
-    if (!status && *length != (size_t)size)
-        status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", path);
-    if (fclose(file) != 0 && !status) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", path);
-    if (status) scree_release(bytes);
     return status;
 }

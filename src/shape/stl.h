@@ -13,7 +13,4 @@
 scree_status scree_stl_parse(const char *bytes, size_t length, double (**corner)[3], size_t *count,
                              scree_error *error) SCREE_MUST_USE;
 
-/// Reads a whole file. The caller releases *bytes. Errors: SCREE_ERROR_IO.
-scree_status scree_stl_load(const char *path, char **bytes, size_t *length, scree_error *error) SCREE_MUST_USE;
-
 #endif

@@ -1,24 +1,19 @@
 /// Triangles of an STL file as a wall: where the file lies, what is in it, the mesh (shape/mesh.h).
 #include "shape/wall_keys.h"
 
-#include "base/checksum.h"
+#include "base/file_bytes.h"
 #include "base/memory.h"
-#include "case/check.h"
+#include "case/own_file.h"
 #include "shape/stl.h"
 
-#include <errno.h>
-#include <inttypes.h>
-#include <limits.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdio.h>
 
 typedef scree_mesh_keys config;
 static const scree_key keys[] = {
     KEY(config, file, SCREE_KEY_TEXT, FROM("1"), TO("4000"),
         .meaning = "STL file, binary or ASCII, relative to the case file."),
-    KEY(config, checksum, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
-        .meaning = "Of the content of the file: another one is refused; auto: any."),
+    SCREE_OWN_FILE_CHECKSUM(config, checksum),
     NUMBER(config, scale, "m", .standard = "1 m", ABOVE("0 m"), TO("1e6 m"),
            .meaning = "Length of one unit of the file, e.g. 1 mm."),
     PLACE(config, at, .standard = "[0, 0]", .meaning = "Where the origin of the file lies."),
@@ -26,39 +21,12 @@ static const scree_key keys[] = {
            .meaning = "Triangles that meet at less than this angle are one smooth surface."),
 };
 
-static bool find_checksum(const char *path, char text[24])
-{
-    enum { CHUNK = 1 << 16 };
-    char bytes[CHUNK];
-    FILE *file = fopen(path, "rbe");
-    if (!file) return false;
-    uint64_t checksum = 0;
-    for (size_t got; (got = fread(bytes, 1, sizeof bytes, file)) > 0;)
-        checksum = scree_checksum_bytes(scree_checksum_word(checksum, got), bytes, got);
-    bool whole = !ferror(file);
-    (void)fclose(file);
-    (void)snprintf(text, 24, "x%016" PRIx64, checksum);
-    return whole;
-}
-
 static void find(scree_reader *reader, int64_t index, void *own)
 {
     config *c = own;
-    char whole[2 * PATH_MAX], path[PATH_MAX], checksum[24], key[2][SCREE_PATH_BYTES];
-    if (!c->file) return; // missing, and noted
-    (void)snprintf(key[0], sizeof key[0], "walls.%lld.file", (long long)index);
-    (void)snprintf(key[1], sizeof key[1], "walls.%lld.checksum", (long long)index);
-    scree_file_beside(reader, c->file, whole, sizeof whole);
-    errno = 0;
-    if (!realpath(whole, path) || !find_checksum(path, checksum)) {
-        scree_rule_refuse(reader, key[0], NULL, "the file cannot be read: %s", strerror(errno));
-    } else if (c->checksum && strcmp(c->checksum, checksum) != 0) {
-        scree_rule_refuse(reader, key[1], checksum, "the file of this mesh has changed: its checksum is %s now",
-                          checksum);
-    } else {
-        scree_rule_set_text(reader, key[0], path, &c->file);
-        scree_rule_set_text(reader, key[1], checksum, &c->checksum);
-    }
+    char path[SCREE_PATH_BYTES];
+    (void)snprintf(path, sizeof path, "walls.%lld", (long long)index);
+    (void)scree_own_file_find(reader, path, &c->file, &c->checksum);
 }
 
 static const char *wrong(const void *own, int dimension, const char **key)
@@ -78,7 +46,7 @@ static scree_status make(const void *own, int dimension, scree_surface *surface,
     char reason[sizeof error->message];
     scree_error failure = {0};
     (void)dimension;
-    scree_status status = scree_stl_load(c->file, &bytes, &length, &failure);
+    scree_status status = scree_file_load(c->file, &bytes, &length, &failure);
     if (!status) status = scree_stl_parse(bytes, length, &corner, &count, &failure);
     for (size_t v = 0; !status && v < 3 * count; v++)
         for (int k = 0; k < 3; k++) corner[v][k] = c->at[k] + c->scale * corner[v][k];

@@ -21,6 +21,19 @@ static double growth(double exponent, double width)
     return x == 0 ? 1 : expm1(x) / x;
 }
 
+double scree_power_law_moment(const scree_power_law_config *law, double power)
+{
+    const double a = law->radius_min, width = log(law->radius_max / a), p = 1 - law->exponent;
+    return pow(a, power) * growth(power + p, width) / growth(p, width);
+}
+
+double scree_power_law_radius(const scree_power_law_config *law, double uniform)
+{
+    const double a = law->radius_min, width = log(law->radius_max / a), p = 1 - law->exponent;
+    const double power = fabs(p) < 1e-12 ? uniform * width : log1p(uniform * expm1(p * width)) / p;
+    return fmin(fmax(a * exp(power), a), law->radius_max);
+}
+
 static scree_size_moments moments(const void *own, int dimension)
 {
     (void)dimension;
@@ -36,10 +49,7 @@ static scree_size_moments moments(const void *own, int dimension)
 static double radius(const void *own, int dimension, double uniform)
 {
     (void)dimension;
-    const config *c = own;
-    double a = c->radius_min, width = log(c->radius_max / a), p = 1 - c->exponent;
-    double power = fabs(p) < 1e-12 ? uniform * width : log1p(uniform * expm1(p * width)) / p;
-    return fmin(fmax(a * exp(power), a), c->radius_max);
+    return scree_power_law_radius(own, uniform);
 }
 
 const scree_module scree_module_power_law = {

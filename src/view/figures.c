@@ -6,6 +6,7 @@
 // clang-format off
 #define SCREE_FIGURE_FAMILIES(row) \
     row(charts)       /* columns over the strain of loading */ \
+    row(sizes)        /* of the particles */ \
     row(scenes)       /* single snapshots */ \
     row(cell_maps)    /* cells of a snapshot */ \
     row(fluctuations) /* displacements in the strain windows */ \
@@ -13,6 +14,7 @@
     row(breaks)       /* bonds that broke */ \
     row(iterates)     /* strains of particles that are held */ \
     row(pile)         /* what was poured */ \
+    row(response)     /* a load on a layer */ \
     row(waves)        /* receivers and layers */ \
     row(fem)          /* finite elements beside the run */ \
     row(circles)      /* pressure over growing circles */ \

@@ -21,6 +21,7 @@ typedef struct scree_plot_run {
     double *strain;              ///< axial strain of each snapshot of the loading stage, NAN of the others
     bool of_cell;                ///< the sample was loaded as a cell that is periodic in all directions
     int dimension;               ///< of the last snapshot
+    bool sizes_vary;             ///< not all particles of the case have one radius
     size_t snapshot_count;
     scree_config_window *window; ///< axial strains of the displacement fluctuations
     size_t window_count;

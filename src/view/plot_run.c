@@ -53,6 +53,14 @@ static scree_status read_strains(scree_plot_run *run, scree_error *error)
     return status;
 }
 
+/// Whether the particles of a case differ in size.
+static bool sizes_vary(const scree_config *config)
+{
+    if (scree_config_species_count(&config->particles) > 1) return true;
+    const int distribution = scree_config_species_at(&config->particles, 0).distribution;
+    return distribution >= 0 && !scree_modules[distribution]->sizes->equal;
+}
+
 /// Windows of the case, when case.yaml can be read and has some.
 static scree_status read_case_windows(scree_plot_run *run, scree_error *error)
 {
@@ -65,7 +73,8 @@ static scree_status read_case_windows(scree_plot_run *run, scree_error *error)
         scree_problems_free(problems);
         return SCREE_OK;
     }
-    size_t count = (size_t)c->config.measure.window_count;
+    const size_t count = (size_t)c->config.measure.window_count;
+    run->sizes_vary = sizes_vary(&c->config);
     status = scree_allocate(&run->window, count, sizeof *run->window, error);
     if (!status) run->window_count = count;
     for (size_t k = 0; k < run->window_count; k++) run->window[k] = c->config.measure.windows[k];

@@ -284,7 +284,7 @@ static void what_cannot_be_is_refused(void **unused)
 {
     (void)unused;
     static const refusal flat[] = {
-        {"particles.count=4", "particles.count", "stages.0 lists 3 bodies", NULL},
+        {"particles.count=4", "particles.count", "stages.0 gives 3 bodies", NULL},
         {"stages.0.bodies.2.position=[4.1 mm, 1.7 mm]", "stages.0.bodies.2.position",
          "bodies 1 and 2 overlap by 0.000396", NULL},
         {"stages.0.bodies.0.position=[0.2 mm, 5 mm]", "stages.0.bodies.0.position", "outside of the box: x is 0.0002 m",

@@ -396,7 +396,7 @@ static void strain_windows_come_from_the_case(void **state)
     fprintf(file, "%.*s%s[[0 %%, 5 %%]]%s", (int)(windows - text), text, key, strchr(windows, '\n'));
     fclose(file);
     assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO); // no series.csv
-    assert_int_equal(r.drawn, 13);
+    assert_int_equal(r.drawn, 14);
     assert_non_null(strstr(r.text, "fluctuations-00-05.svg"));
     assert_non_null(strstr(r.text, "distortion-00-05.svg"));
     assert_int_equal(unlink("windows/case.yaml"), 0);

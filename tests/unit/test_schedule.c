@@ -204,7 +204,7 @@ static void tables_may_lie_in_files(void **state)
     FILE_OF("0\n1\n", ".csv:1:1: speed: expected rows of two values");
     FILE_OF("time [m],v\n0,0\n", ".csv:2:1: speed");
     FILE_OF("0,\n", ".csv:1:3: speed: expected a number");
-    FILE_OF("0,1,2,3,4,5,6,7,8\n", "at most 8 values");
+    FILE_OF("0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n", "at most 16 values");
     FILE_OF("0,\0\n", "not a text file");
     FILE_OF("", "expected a value, or a table");
     wrong("speed: nowhere.csv\n", "values.yaml:1:8: speed: the file of this table cannot be used: No such file");

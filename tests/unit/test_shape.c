@@ -1,6 +1,8 @@
 /// STL files and meshes: forms, errors, random bytes, topology, closest points against brute force.
 #include "wall_fixture.h"
 
+#include "base/file_bytes.h"
+
 /// A tetrahedron whose coordinates are no short decimals.
 static const triangle_corners tetrahedron[4] = {
     {{0.1, 0.2, 0.3}, {1.1, 0.25, 0.35}, {0.15, 1.3, 0.3}},
@@ -17,7 +19,7 @@ static void file_name(char name[80], const char *kind)
 static void load(const char *name, char **bytes, size_t *length)
 {
     scree_error error = {0};
-    if (scree_stl_load(name, bytes, length, &error)) fail_msg("%s", error.message);
+    if (scree_file_load(name, bytes, length, &error)) fail_msg("%s", error.message);
     (void)unlink(name);
 }
 

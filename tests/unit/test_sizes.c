@@ -2,6 +2,7 @@
 /// and number alone.
 #include "biaxial_config.h"
 #include "model/model.h"
+#include "size/grading.h"
 #include "size/log_normal.h"
 #include "size/normal.h"
 #include "size/power_law.h"
@@ -143,6 +144,55 @@ static void sizes_of_a_table(void **unused)
         }
 }
 
+/// Number of grains between two radii, and sums of powers of theirs, by quadrature of a density of mass.
+static void add_piece(double a, double b, double share, bool logarithmic, int dimension, double sum[4])
+{
+    enum { STEPS = 2000 };
+    for (int i = 0; i < STEPS; i++) {
+        const double u = (i + 0.5) / STEPS, r = logarithmic ? a * pow(b / a, u) : a + u * (b - a);
+        for (int n = 0; n <= 3; n++) sum[n] += share / STEPS * pow(r, n - dimension);
+    }
+}
+
+static void sizes_of_a_grading(void **unused)
+{
+    (void)unused;
+    // With a step: 20 % of the mass lie on one sieve.
+    scree_sieve grading[] = {{0.2e-3, 0}, {0.5e-3, 0.1}, {1e-3, 0.4}, {1e-3, 0.6}, {1.5e-3, 0.6}, {4e-3, 1}};
+    for (int between = SCREE_GRADING_LOGARITHM; between <= SCREE_GRADING_SIZE; between++)
+        for (int dimension = 2; dimension <= 3; dimension++) {
+            biaxial_config_set(&c, 100);
+            *OWN(&c.sizes, scree_grading_config, grading, "particles") = (scree_grading_config){grading, 6, between};
+            build(SCREE_SLOT_grading, dimension);
+            double sum[4] = {0};
+            for (int i = 0; i + 1 < 6; i++)
+                add_piece(0.5 * grading[i].sieve, 0.5 * grading[i + 1].sieve,
+                          grading[i + 1].passing - grading[i].passing, between == SCREE_GRADING_LOGARITHM, dimension,
+                          sum);
+            expect_moments(sum[1] / sum[0], sum[2] / sum[0], sum[3] / sum[0], 1e-6);
+            assert_true(model.radius_min == 0.1e-3 && model.radius_max == 2e-3);
+        }
+}
+
+/// What is drawn passes the sieves as it should: shares of the mass, within four standard errors.
+static void draws_pass_the_sieves(void **unused)
+{
+    (void)unused;
+    scree_sieve grading[] = {{0.4e-3, 0}, {0.6e-3, 0.2}, {1e-3, 0.7}, {1.6e-3, 1}};
+    biaxial_config_set(&c, 100);
+    *OWN(&c.sizes, scree_grading_config, grading, "particles") = (scree_grading_config){grading, 4, 0};
+    build(SCREE_SLOT_grading, 2);
+    double passed[4] = {0}, squares = 0, whole = 0;
+    for (uint64_t id = 0; id < DRAWS; id++) {
+        const double r = scree_model_drawn_radius(&model, id), mass = r * r;
+        whole += mass;
+        squares += mass * mass;
+        for (int i = 0; i < 4; i++)
+            if (2 * r < grading[i].sieve) passed[i] += mass;
+    }
+    for (int i = 0; i < 4; i++) assert_true(fabs(passed[i] / whole - grading[i].passing) < 4 * sqrt(squares) / whole);
+}
+
 /// Whatever the order of the numbers and how many there are.
 static void radii_are_functions_of_seed_and_number(void **unused)
 {
@@ -186,6 +236,17 @@ static void wrong_keys_are_refused(void **unused)
     expect_refused(SCREE_SLOT_log_normal, "particles.median", "of the distribution");
     *OWN(&c.sizes, scree_table_config, table, "particles") = (scree_table_config){0, sizes, 2};
     expect_refused(SCREE_SLOT_table, "particles.sizes", "add up to 70 %");
+    scree_sieve falls[] = {{1e-3, 0}, {2e-3, 0.5}, {3e-3, 0.4}, {4e-3, 1}}, open[] = {{1e-3, 0.1}, {2e-3, 1}},
+                cut[] = {{1e-3, 0}, {2e-3, 0.9}}, turned[] = {{2e-3, 0}, {1e-3, 1}};
+    scree_grading_config *own = OWN(&c.sizes, scree_grading_config, grading, "particles");
+    *own = (scree_grading_config){falls, 4, 0};
+    expect_refused(SCREE_SLOT_grading, "particles.grading", "50 % pass the sieve of 2 mm, and 40 % that of 3 mm");
+    *own = (scree_grading_config){open, 2, 0};
+    expect_refused(SCREE_SLOT_grading, "particles.grading", "10 % pass the finest sieve (1 mm)");
+    *own = (scree_grading_config){cut, 2, 0};
+    expect_refused(SCREE_SLOT_grading, "particles.grading", "only 90 % pass the coarsest sieve (2 mm)");
+    *own = (scree_grading_config){turned, 2, 0};
+    expect_refused(SCREE_SLOT_grading, "particles.grading", "list them from fine to coarse");
 }
 
 int main(void)
@@ -194,6 +255,7 @@ int main(void)
         cmocka_unit_test(limits_and_equal_sizes), cmocka_unit_test(normal_sizes),
         cmocka_unit_test(log_normal_sizes),       cmocka_unit_test(power_law_sizes),
         cmocka_unit_test(sizes_of_a_table),       cmocka_unit_test(radii_are_functions_of_seed_and_number),
+        cmocka_unit_test(sizes_of_a_grading),     cmocka_unit_test(draws_pass_the_sieves),
         cmocka_unit_test(wrong_keys_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

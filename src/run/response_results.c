@@ -1,0 +1,538 @@
+/// Response of a layer to a load on one grain at its top: what it is like at the end of the run less what it was like
+/// before the load, with the contacts that the load has made, lost or brought to sliding (average/response.h).
+///
+/// The unloaded layer is that of the last snapshot before the load begins, the loaded one that of the last one, where
+/// the load still acts. Snapshots in between tell how large the load was before the first contact changed; its force at
+/// them is that of series.csv. Tables: response.csv (along cuts), response-depths.csv (their peaks),
+/// response-contacts.csv.
+#include "average/strain.h"
+#include "base/vectors.h"
+#include "case/check.h"
+#include "io/run_directory.h"
+#include "io/sample_file.h"
+#include "load/prescribed.h"
+#include "module/key_rows.h"
+#include "run/conclusion.h"
+#include "run/response_curves.h"
+#include "selection/selection.h"
+#include "selection/top.h"
+#include "state/body.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// ---- keys --------------------------------------------------------------------------------------------------------
+
+typedef struct config {
+    char *load;     ///< its name
+    double element; ///< m
+    double poisson; ///< 1
+} config;
+
+static const scree_key keys[] = {
+    {.name = "response_load",
+     .type = SCREE_KEY_WORD,
+     .standard = "auto",
+     FROM("1"),
+     TO("63"),
+     .offset = offsetof(config, load),
+     .meaning = "Name of the load `prescribed` whose response is told: it presses on one grain at the top, from its "
+                "first stage to the end of the run. auto: none."},
+    {.name = "response_element",
+     .type = SCREE_KEY_NUMBER,
+     .unit = "m",
+     .standard = "auto",
+     ABOVE("0 m"),
+     TO("100 km"),
+     .offset = offsetof(config, element),
+     .meaning = "Side of the elements that the response is a mean over; auto: two mean diameters. Not used without "
+                "`response_load`."},
+    {.name = "response_poisson_ratio",
+     .type = SCREE_KEY_NUMBER,
+     .unit = "1",
+     .standard = "0.3",
+     ABOVE("-1"),
+     TO("0.5"),
+     .offset = offsetof(config, poisson),
+     .meaning = "Of the elastic layer on a bonded base that the response is compared with, in plane strain."},
+};
+
+static const config *own_config(const scree_config *whole)
+{
+    return whole->measure.own ? scree_config_own(&scree_module_response, "measure", whole->measure.own) : NULL;
+}
+
+/// Number of the load of this name; -1: there is none.
+static int64_t find_load(const scree_config_load *loads, int64_t count, const char *name)
+{
+    for (int64_t k = 0; k < count && name; k++) {
+        const scree_prescribed_config *load = scree_prescribed_config_of(loads, k);
+        if (load && scree_prescribed_name(load) && strcmp(scree_prescribed_name(load), name) == 0) return k;
+    }
+    return -1;
+}
+
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    const config *own = own_config(whole);
+    const char *names[SCREE_LOADS];
+    size_t count = 0;
+    if (!own || !own->load) return;
+    for (int64_t k = 0; k < whole->load_count && count < SCREE_LOADS; k++) {
+        const scree_prescribed_config *load = scree_prescribed_config_of(whole->loads, k);
+        if (load && scree_prescribed_name(load)) names[count++] = scree_prescribed_name(load);
+    }
+    if (find_load(whole->loads, whole->load_count, own->load) < 0)
+        scree_rule_refuse_name(reader, "measure.response_load", "load of the kind prescribed", own->load, names, count);
+    else if (whole->dimension != 2 || whole->boundary.periodic > 0)
+        scree_rule_refuse(reader, "measure.response_load", "auto",
+                          "responses are those of layers in two dimensions that do not repeat themselves");
+}
+
+typedef struct numbers {
+    int64_t load; ///< -1: none
+    double element, poisson;
+} numbers;
+
+static scree_status resolve(scree_model *model, scree_error *error)
+{
+    const config *own = scree_config_own(&scree_module_response, "measure", model->config->measure.own);
+    numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_response);
+    (void)error;
+    *n = (numbers){.load = -1};
+    if (!own || !own->load) return SCREE_OK;
+    n->load = find_load(model->loads, model->load_count, own->load);
+    n->element = own->element > 0 ? own->element : 0;
+    n->poisson = own->poisson;
+    return SCREE_OK;
+}
+
+static const numbers *numbers_of(const scree_model *model)
+{
+    const numbers *n = scree_model_numbers(model, SCREE_SLOT_response);
+    return n && n->load >= 0 ? n : NULL;
+}
+
+// ---- what is loaded ----------------------------------------------------------------------------------------------
+
+static scree_status refuse(scree_error *error, const char *format, uint32_t one, uint32_t other)
+{
+    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, format, one, other);
+    if (error) (void)snprintf(error->field, sizeof error->field, "measure.response_load");
+    return status;
+}
+
+/// The row of the one grain that the load presses on.
+static scree_status find_loaded(const scree_model *model, const scree_state *state, int64_t load, uint32_t *found,
+                                scree_error *error)
+{
+    const scree_prescribed_config *own = scree_prescribed_config_of(model->loads, load);
+    const int64_t selection = scree_config_selection_find(model->selections, model->selection_count, own->selection);
+    size_t next = 0;
+    *found = SCREE_NO_ROW;
+    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
+        if (!scree_selection_has(state, selection, row)) continue;
+        if (*found != SCREE_NO_ROW)
+            return refuse(error,
+                          "the load presses on particle %u and on particle %u: the response is that to a load on one "
+                          "grain, such as that of a selection `top`",
+                          state->id[*found], state->id[row]);
+        *found = row;
+    }
+    return SCREE_OK;
+}
+
+/// The load presses on a grain at the top when it begins to act.
+static scree_status begin(const scree_context *c, scree_error *error)
+{
+    const numbers *n = numbers_of(c->model);
+    int64_t range[2];
+    uint32_t row;
+    if (!n) return SCREE_OK;
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, n->load);
+    scree_load_stages(c->model->stages, c->model->stage_count, own->from, own->until, range);
+    if (c->state->stage.index != range[0]) return SCREE_OK;
+    const int64_t selection =
+        scree_config_selection_find(c->model->selections, c->model->selection_count, own->selection);
+    scree_status status = scree_selection_resolve(c->model, c->state, selection, error);
+    if (!status) status = find_loaded(c->model, c->state, n->load, &row, error);
+    if (status) return status;
+    const uint32_t above = scree_row_above(c->state, row);
+    return above == SCREE_NO_ROW
+               ? SCREE_OK
+               : refuse(error,
+                        "the load presses on particle %u, which is not at the top: particle %u stands over it; let it "
+                        "press on a selection `top`",
+                        c->state->id[row], c->state->id[above]);
+}
+
+// ---- results -----------------------------------------------------------------------------------------------------
+
+#define AT(name, unit, meaning)                                                                                        \
+    {name "_quarter", unit, meaning ", at a quarter of the depth of the layer"},                                       \
+        {name "_half", unit, "the same at a half"}, {name "_three_quarters", unit, "the same at three quarters"},      \
+    {                                                                                                                  \
+        name "_bottom", unit, "the same in elements that stand on the base"                                            \
+    }
+static const scree_result results[] = {
+    {"response_force", "N", "load at the end (measure.response_load), downwards"},
+    {"response_grain_weights", "1", "the same over the mean weight of a grain"},
+    {"response_thickness", "m", "of the layer, from the top of the loaded grain to the bottom of the lowest one"},
+    {"response_element", "m", "side of the elements that all is a mean over"},
+    {"response_missing", "1", "largest part of the load that is missing in what a row of elements and walls bear"},
+    {"response_contacts", "1", "contacts of grains before the load"},
+    {"response_made", "1", "contacts that there are with the load alone"},
+    {"response_lost", "1", "contacts that there were before the load alone"},
+    {"response_sliding", "1",
+     "contacts whose friction is used up (to 0.1 %) in a snapshot under the load and was not before"},
+    {"response_unchanged_force", "N", "largest load, of the snapshots, up to which no contact was made, lost or slid"},
+    {"response_order", "1",
+     "Re sum f exp(6 i angle) / sum f of the normal forces f between grains under load: 1 where all point along "
+     "multiples of 60 degrees"},
+    {"response_force_order", "1", "the same of the whole forces, friction included"},
+    {"response_unbalanced", "1", "the larger unbalanced ratio of both samples"},
+    AT("response_peak", "1", "largest vertical response times depth over load; of the half-space 2 / pi"),
+    AT("response_horizontal", "1", "largest horizontal response times depth over load"),
+    AT("response_dip", "1", "1 - vertical response below the load over the largest one; 0: a single peak"),
+    AT("response_place", "1", "distance of the largest vertical response from the load over the depth"),
+    AT("response_width", "m", "distance from the load beyond which the vertical response is below half of the largest"),
+    AT("response_centre", "1", "mean vertical response within 1/5 of the depth of the load, times depth over load"),
+    AT("response_horizontal_centre", "1", "mean horizontal response within 1/5 of the depth, likewise"),
+    AT("response_beside", "1", "the same from 2/5 to 4/5 of the depth beside the load"),
+    AT("response_reach", "m", "distance from the load within which half of the vertical response lies"),
+    AT("response_strain_dip", "1", "1 - vertical strain below the load over the largest one"),
+    {"response_widening", "1", "p in reach ~ depth^p; 1: linear"},
+    {"response_over_half_space", "1",
+     "mean vertical response at the base within 1/5 of the depth of the load over that of the elastic half-space"},
+    {"response_over_smooth", "1", "the same of the elastic layer on a smooth rigid base"},
+    {"response_over_bonded", "1", "the same of the elastic layer bonded to a rigid base"},
+    {"response_misfit_half_space", "1",
+     "root mean square difference from the half-space at the base, within a thickness, over its peak"},
+    {"response_misfit_smooth", "1", "the same of the layer on a smooth base"},
+    {"response_misfit_bonded", "1", "the same of the layer bonded to its base"},
+};
+
+#define USED_UP 0.999 /* of the friction of a contact that slides, or is about to */
+
+/// What is needed while results are found.
+typedef struct finding {
+    const scree_conclusion *run;
+    const numbers *n;
+    scree_snapshot_mark *mark;
+    size_t count, first; ///< of snapshots; the unloaded one
+    const double *time, *force[2];
+    scree_average_sample before, after;
+    scree_response response;
+    scree_response_changes changes;
+    scree_response_curves *curves;
+} finding;
+
+static void set(const finding *f, const char *name, const char *where, double value)
+{
+    char text[64];
+    (void)snprintf(text, sizeof text, "response_%s%s", name, where);
+    scree_summary_set_number(f->run->summary, text, value);
+}
+
+/// Force of the load at a time [N], downwards, from series.csv.
+static double force_at(const finding *f, double time)
+{
+    size_t best = 0;
+    for (size_t k = 0; k < f->run->series->row_count; k++)
+        if (fabs(f->time[k] - time) <= fabs(f->time[best] - time)) best = k;
+    return -f->force[1][best];
+}
+
+static scree_status find_snapshots(finding *f, scree_error *error)
+{
+    const scree_prescribed *all = scree_prescribed_of(&f->run->s->state);
+    const scree_prescribed_config *own = scree_prescribed_config_of(f->run->s->model.loads, f->n->load);
+    char column[SCREE_RESULT_NAME];
+    scree_status status = scree_snapshot_marks(f->run->directory, &f->mark, &f->count, error);
+    if (status) return status;
+    const double begun = all->begun[f->n->load] * (1 + 1e-12);
+    while (f->first + 1 < f->count && f->mark[f->first + 1].time <= begun) f->first++;
+    f->time = scree_series_get(f->run->series, "time");
+    for (int k = 0; k < 2; k++) {
+        (void)snprintf(column, sizeof column, "%s_exerted_force_%c", scree_prescribed_name(own), "xy"[k]);
+        f->force[k] = scree_series_get(f->run->series, column);
+    }
+    if (f->first + 1 < f->count && f->time && f->force[1] && f->run->series->row_count > 0) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "there are no snapshots before and after the load");
+}
+
+/// Friction coefficient between two grains; between a grain and what is none it is taken to be that of two such grains.
+static double friction_of(const scree_simulation *s, uint32_t first, uint32_t second)
+{
+    const uint32_t one = scree_state_row_of(&s->state, first);
+    const uint32_t other = second == SCREE_AVERAGE_OUTSIDE ? one : scree_state_row_of(&s->state, second);
+    if (one == SCREE_NO_ROW || other == SCREE_NO_ROW) return NAN;
+    return s->stage_model.pairs[scree_body_material(&s->state, one)][scree_body_material(&s->state, other)]
+        .value[SCREE_FRICTION];
+}
+
+/// A snapshot; contacts slide where their friction is used up, whether they slip at this instant or not.
+static scree_status read_sample(const finding *f, size_t mark, scree_average_sample *sample, scree_error *error)
+{
+    scree_status status = scree_sample_read(f->run->directory, f->mark[mark].index, sample, error);
+    for (size_t k = 0; k < sample->contacts && !status; k++) {
+        scree_average_contact *c = &sample->contact[k];
+        const uint32_t first = sample->grain[c->first].id;
+        const uint32_t second =
+            c->second == SCREE_AVERAGE_OUTSIDE ? SCREE_AVERAGE_OUTSIDE : sample->grain[c->second].id;
+        const double limit = USED_UP * friction_of(f->run->s, first, second) * c->normal_force;
+        c->sliding = limit > 0 && fabs(c->tangential_force) >= limit;
+    }
+    return status;
+}
+
+static scree_status read_samples(finding *f, scree_error *error)
+{
+    const scree_simulation *s = f->run->s;
+    uint32_t row;
+    scree_status status = find_loaded(&s->model, &s->state, f->n->load, &row, error);
+    if (!status) status = read_sample(f, f->first, &f->before, error);
+    if (!status) status = read_sample(f, f->count - 1, &f->after, error);
+    if (!status) status = scree_average_move(&f->after, &f->before, error);
+    if (!status) status = scree_average_sample_finish(&f->before, error);
+    if (!status) status = scree_average_sample_finish(&f->after, error);
+    if (!status) status = scree_response_compare(&f->before, &f->after, &f->changes, error);
+    if (!status)
+        status = scree_response_open(&f->before, &f->after, s->state.id[row], f->n->element, &f->response, error);
+    f->response.force = force_at(f, f->mark[f->count - 1].time);
+    const scree_prescribed_config *own = scree_prescribed_config_of(s->model.loads, f->n->load);
+    if (!status && own->until_force > 0 && scree_length(scree_prescribed_of(&s->state)->given[f->n->load]) == 0)
+        status = scree_error_set(error, SCREE_ERROR_INPUT,
+                                 "the layer gives way: the load has not met its force (until_force) and still moves; "
+                                 "take a smaller force");
+    if (!status && !(f->response.force > 0))
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "the load pulls, or is none at the end");
+    return status;
+}
+
+/// Whether the contact of these bodies is known to have slid.
+static bool is_noted(const scree_response_changes *all, const scree_response_change *change)
+{
+    for (size_t k = 0; k < all->count; k++)
+        if (all->list[k].kind == SCREE_RESPONSE_SLIDING && all->list[k].first == change->first &&
+            all->list[k].second == change->second)
+            return true;
+    return false;
+}
+
+/// Adds the contacts that slid at an instant under the load to those that slide at the end.
+static scree_status add_sliding(finding *f, const scree_response_changes *now, scree_error *error)
+{
+    scree_response_changes *all = &f->changes;
+    const size_t room = all->count + now->sliding;
+    scree_status status = scree_reallocate(&all->list, all->count, room + 1, sizeof *all->list, error);
+    for (size_t k = 0; k < now->count && !status; k++) {
+        if (now->list[k].kind != SCREE_RESPONSE_SLIDING || is_noted(all, &now->list[k])) continue;
+        all->list[all->count++] = now->list[k];
+        all->sliding++;
+    }
+    return status;
+}
+
+/// Goes through the snapshots under load: what slid, and the largest load of those before the first that has another
+/// contact.
+static scree_status follow_load(finding *f, double *force, scree_error *error)
+{
+    bool unchanged = true;
+    *force = 0;
+    for (size_t k = f->first + 1; k < f->count; k++) {
+        scree_average_sample sample;
+        scree_response_changes changes = {0};
+        scree_status status = read_sample(f, k, &sample, error);
+        if (!status) status = scree_response_compare(&f->before, &sample, &changes, error);
+        if (!status) status = add_sliding(f, &changes, error);
+        scree_average_sample_destroy(&sample);
+        scree_release(&changes.list);
+        if (status) return status;
+        unchanged = unchanged && changes.count == 0;
+        if (unchanged) *force = fmax(*force, force_at(f, f->mark[k].time));
+    }
+    return SCREE_OK;
+}
+
+static void set_depths(const finding *f)
+{
+    static const char *const where[] = {"_quarter", "_half", "_three_quarters", "_bottom"};
+    for (int k = 0; k < 4; k++) {
+        const scree_response_level *level = &f->curves->level[2 * k + 1];
+        const scree_response_peak *peak = level->peak;
+        const double unit = level->depth * f->after.thickness / f->response.force;
+        set(f, "peak", where[k], peak[SCREE_RESPONSE_VERTICAL].most * unit);
+        set(f, "horizontal", where[k], peak[SCREE_RESPONSE_HORIZONTAL].most * unit);
+        set(f, "horizontal_centre", where[k], level->centre[SCREE_RESPONSE_HORIZONTAL] * unit);
+        set(f, "dip", where[k], peak[SCREE_RESPONSE_VERTICAL].dip);
+        set(f, "place", where[k], peak[SCREE_RESPONSE_VERTICAL].place / level->depth);
+        set(f, "width", where[k], peak[SCREE_RESPONSE_VERTICAL].width);
+        set(f, "centre", where[k], level->centre[SCREE_RESPONSE_VERTICAL] * unit);
+        set(f, "beside", where[k], level->beside * unit);
+        set(f, "reach", where[k], level->reach);
+        set(f, "strain_dip", where[k], peak[SCREE_RESPONSE_STRAIN].dip);
+    }
+}
+
+static void set_theories(const finding *f)
+{
+    static const char *const name[] = {"half_space", "smooth", "bonded"};
+    const double *centre = f->curves->level[SCREE_RESPONSE_LEVELS - 1].centre;
+    set(f, "widening", "", scree_response_widening(f->curves));
+    for (int k = 0; k < 3; k++) {
+        const scree_response_curve theory = (scree_response_curve)(SCREE_RESPONSE_HALF_SPACE + k);
+        set(f, "over_", name[k], centre[SCREE_RESPONSE_VERTICAL] / centre[theory]);
+        set(f, "misfit_", name[k], scree_response_misfit(f->curves, theory));
+    }
+}
+
+static scree_status set_results(finding *f, scree_error *error)
+{
+    double missing = 0, unchanged, contacts = 0;
+    scree_status status = follow_load(f, &unchanged, error);
+    if (status) return status;
+    for (int k = 0; k < SCREE_RESPONSE_LEVELS; k++) missing = fmax(missing, fabs(f->curves->level[k].missing));
+    for (size_t c = 0; c < f->before.contacts; c++) contacts += f->before.grain[f->before.contact[c].first].counted;
+    set(f, "force", "", f->response.force);
+    set(f, "grain_weights", "",
+        f->response.force * (double)f->before.counted / (-f->before.mass * f->before.gravity[1]));
+    set(f, "thickness", "", f->curves->thickness);
+    set(f, "element", "", f->response.side);
+    set(f, "missing", "", missing);
+    set(f, "contacts", "", contacts);
+    set(f, "made", "", (double)f->changes.made);
+    set(f, "lost", "", (double)f->changes.lost);
+    set(f, "sliding", "", (double)f->changes.sliding);
+    set(f, "unchanged_force", "", unchanged);
+    set(f, "order", "", scree_response_order(&f->after, true));
+    set(f, "force_order", "", scree_response_order(&f->after, false));
+    set(f, "unbalanced", "", fmax(f->before.unbalanced_ratio, f->after.unbalanced_ratio));
+    set_depths(f);
+    set_theories(f);
+    return SCREE_OK;
+}
+
+// ---- tables ------------------------------------------------------------------------------------------------------
+
+static const char *const curve_names[SCREE_RESPONSE_CURVES] = {"vertical [Pa]",
+                                                               "horizontal [Pa]",
+                                                               "strain [1]",
+                                                               "half_space [Pa]",
+                                                               "smooth [Pa]",
+                                                               "bonded [Pa]",
+                                                               "half_space_horizontal [Pa]",
+                                                               "smooth_horizontal [Pa]",
+                                                               "bonded_horizontal [Pa]"};
+
+static void write_cuts(FILE *file, const finding *f)
+{
+    fputs("depth [m],x [m],left [Pa],right [Pa]", file);
+    for (int c = 0; c < SCREE_RESPONSE_CURVES; c++) fprintf(file, ",%s", curve_names[c]);
+    fputc('\n', file);
+    for (int k = 0; k < SCREE_RESPONSE_LEVELS; k++)
+        for (size_t i = 0; i < f->curves->count; i++) {
+            const scree_response_level *level = &f->curves->level[k];
+            fprintf(file, "%.9g,%.9g,%.9g,%.9g", level->depth, f->curves->gap * (double)i, level->left[i],
+                    level->right[i]);
+            for (int c = 0; c < SCREE_RESPONSE_CURVES; c++) fprintf(file, ",%.9g", level->value[c][i]);
+            fputc('\n', file);
+        }
+}
+
+static void write_depths(FILE *file, const finding *f)
+{
+    fputs("depth [m],missing [1],peak [Pa],place [m],dip [1],width [m],reach [m],horizontal_peak [Pa],strain_peak "
+          "[1],strain_dip "
+          "[1],half_space_peak [Pa],smooth_peak [Pa],bonded_peak [Pa],half_space_width [m],smooth_width [m],"
+          "bonded_width [m]\n",
+          file);
+    for (int k = 0; k < SCREE_RESPONSE_LEVELS; k++) {
+        const scree_response_level *level = &f->curves->level[k];
+        const scree_response_peak *p = level->peak;
+        fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", level->depth, level->missing,
+                p[SCREE_RESPONSE_VERTICAL].most, p[SCREE_RESPONSE_VERTICAL].place, p[SCREE_RESPONSE_VERTICAL].dip,
+                p[SCREE_RESPONSE_VERTICAL].width, level->reach, p[SCREE_RESPONSE_HORIZONTAL].most,
+                p[SCREE_RESPONSE_STRAIN].most, p[SCREE_RESPONSE_STRAIN].dip);
+        for (int c = SCREE_RESPONSE_HALF_SPACE; c <= SCREE_RESPONSE_BONDED; c++) fprintf(file, ",%.9g", p[c].most);
+        for (int c = SCREE_RESPONSE_HALF_SPACE; c <= SCREE_RESPONSE_BONDED; c++) fprintf(file, ",%.9g", p[c].width);
+        fputc('\n', file);
+    }
+}
+
+static void write_contacts(FILE *file, const finding *f)
+{
+    static const char *const kind[] = {"made", "lost", "sliding"};
+    fputs("change,first,second,x [m],y [m],normal_force_before [N],normal_force_after [N]\n", file);
+    for (size_t k = 0; k < f->changes.count; k++) {
+        const scree_response_change *c = &f->changes.list[k];
+        fprintf(file, "%s,%u,", kind[c->kind], c->first);
+        if (c->second == SCREE_AVERAGE_OUTSIDE)
+            fputs("wall", file);
+        else
+            fprintf(file, "%u", c->second);
+        fprintf(file, ",%.9g,%.9g,%.9g,%.9g\n", c->point[0], c->point[1], c->before, c->after);
+    }
+}
+
+static scree_status write_table(const finding *f, const char *name, void (*write)(FILE *, const finding *),
+                                scree_error *error)
+{
+    char path[PATH_MAX];
+    FILE *file;
+    scree_status status = scree_path_join(path, sizeof path, f->run->directory, name, error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    write(file, f);
+    return scree_replace_finish(path, file, true, error);
+}
+
+// ---- the whole ---------------------------------------------------------------------------------------------------
+
+static scree_status find_all(finding *f, scree_error *error)
+{
+    scree_status status = find_snapshots(f, error);
+    if (!status) status = read_samples(f, error);
+    if (!status) status = scree_allocate(&f->curves, 1, sizeof *f->curves, error);
+    if (!status) status = scree_response_curves_find(&f->response, f->n->poisson, f->curves, error);
+    if (!status) status = set_results(f, error);
+    if (!status) status = write_table(f, SCREE_FILE_RESPONSE, write_cuts, error);
+    if (!status) status = write_table(f, SCREE_FILE_RESPONSE_DEPTHS, write_depths, error);
+    if (!status) status = write_table(f, SCREE_FILE_RESPONSE_CONTACTS, write_contacts, error);
+    return status;
+}
+
+static scree_status conclude(const scree_conclusion *run, scree_error *error)
+{
+    scree_error why = {0};
+    finding f = {.run = run, .n = numbers_of(&run->s->model)};
+    // A run that has been stopped before the load acts has none.
+    if (!f.n || !scree_prescribed_of(&run->s->state)->acts[f.n->load]) return SCREE_OK;
+    scree_status status = find_all(&f, &why);
+    scree_release(&f.mark);
+    scree_release(&f.changes.list);
+    scree_release(&f.curves);
+    scree_average_sample_destroy(&f.before);
+    scree_average_sample_destroy(&f.after);
+    if (status == SCREE_ERROR_INPUT)
+        scree_log_write(run->log, SCREE_LOG_WARNING, "no response: %s", why.message);
+    else if (status && error)
+        *error = why;
+    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
+}
+
+const scree_module scree_module_response = {
+    .name = "response",
+    .meaning = "response of a layer to a load on one grain at its top: stresses, strains and contacts, loaded less "
+               "unloaded",
+    .keys = (const scree_keys[]){KEYS_OF("measure", keys, config)},
+    .keys_count = 1,
+    .rules = rules,
+    .numbers_size = sizeof(numbers),
+    .resolve = resolve,
+    .begin = begin,
+    .results = SCREE_RESULTS(results, NULL),
+    .conclude = conclude,
+};

@@ -1,0 +1,306 @@
+/// Grains from files: formats, units, ids, frames; what a case makes of them; what is refused, and where.
+#include "run_fixture.h"
+
+#include "io_scratch.h"
+
+#include "grains/grains.h"
+#include "prepare/given.h"
+
+#include <unistd.h>
+
+static const scree_grains_options plain = {.length = 1, .time = 1, .frame = NAN};
+
+static const char *write_file(const char *name, const char *text)
+{
+    static char path[4][PATH_MAX];
+    static int at;
+    char *own = path[at++ % 4];
+    (void)snprintf(own, PATH_MAX, "%s/%s", scratch, name);
+    FILE *file = fopen(own, "w");
+    assert_non_null(file);
+    (void)fputs(text, file);
+    (void)fclose(file);
+    return own;
+}
+
+static scree_grains read_text(const char *text, const scree_grains_options *options, const char *format)
+{
+    scree_grains g;
+    scree_error error;
+    check(scree_grains_read(write_file("grains", text), options, &g, &error), &error);
+    assert_string_equal(g.format, format);
+    return g;
+}
+
+static void expect(const scree_grains *g, int column, double first, double second)
+{
+    assert_non_null(g->column[column]);
+    assert_true(fabs(g->column[column][0] - first) < 1e-14 * (1 + fabs(first)));
+    assert_true(fabs(g->column[column][1] - second) < 1e-14 * (1 + fabs(second)));
+}
+
+static void tables_have_names_and_units(void **unused)
+{
+    (void)unused;
+    scree_grains g = read_text("# from a scan\nid; x [mm]; y [mm]; diameter [um]; vx; spin [degree/s]; material\n"
+                               "7; 2; 3; 500; 0.5; 180; clay\n\n3; 1; 2.5; 300; -1; 0; sand # small\n",
+                               &plain, "csv");
+    assert_int_equal(g.count, 2);
+    expect(&g, SCREE_GRAIN_X, 1e-3, 2e-3); // by id
+    expect(&g, SCREE_GRAIN_Y, 2.5e-3, 3e-3);
+    expect(&g, SCREE_GRAIN_RADIUS, 150e-6, 250e-6);
+    expect(&g, SCREE_GRAIN_VX, -1, 0.5);
+    expect(&g, SCREE_GRAIN_WZ, 0, M_PI);
+    assert_string_equal(g.kind_name[g.kind[0]], "sand");
+    assert_string_equal(g.kind_name[g.kind[1]], "clay");
+    scree_grains_destroy(&g);
+    const scree_grains_options millimetres = {.length = 1e-3, .time = 1e-6, .frame = NAN};
+    g = read_text("x,y,radius,vx,wz\n1,2,0.5,3,4\n2,3,0.25,0,-1\n", &millimetres, "csv");
+    expect(&g, SCREE_GRAIN_RADIUS, 0.5e-3, 0.25e-3);
+    expect(&g, SCREE_GRAIN_VX, 3e3, 0);
+    expect(&g, SCREE_GRAIN_WZ, 4e6, -1e6);
+    scree_grains_destroy(&g);
+}
+
+static const char dump[] =
+    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n-1 3\n0 2\n0 5\n"
+    "ITEM: ATOMS id type xs ys z radius fx omegaz\n2 1 0.5 0.5 1 0.1 9 0\n1 2 0.25 0 2 0.2 9 1\n"
+    "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n-1 3\n0 2\n0 5\n"
+    "ITEM: ATOMS id type xs ys z radius fx omegaz\n2 1 0.75 1 3 0.1 9 2\n1 2 0.5 0.25 4 0.2 9 3\n";
+
+static void dumps_of_lammps(void **unused)
+{
+    (void)unused;
+    scree_grains g = read_text(dump, &plain, "lammps_dump");
+    expect(&g, SCREE_GRAIN_X, 1, 2); // of the last frame, by id, unscaled
+    expect(&g, SCREE_GRAIN_Z, 4, 3);
+    expect(&g, SCREE_GRAIN_RADIUS, 0.2, 0.1);
+    expect(&g, SCREE_GRAIN_WZ, 3, 2);
+    assert_true(g.bounded && g.bounds[0][0] == -1 && g.bounds[2][1] == 5);
+    scree_grains_destroy(&g);
+    const scree_grains_options first = {.length = 1, .time = 1, .frame = 0};
+    g = read_text(dump, &first, "lammps_dump");
+    expect(&g, SCREE_GRAIN_X, 0, 1);
+    scree_grains_destroy(&g);
+}
+
+static void data_files_of_lammps(void **unused)
+{
+    (void)unused;
+    scree_grains g = read_text("a title\n\n2 atoms\n1 atom types\n-1 1 xlo xhi\n0 2 ylo yhi\n0 3 zlo zhi\n\n"
+                               "Atoms # sphere\n\n2 1 0.4 2500 1 2 3\n1 1 0.2 2500 -1 0 1 0 0 0\n\n"
+                               "Velocities\n\n1 1 2 3 4 5 6\n2 0 0 0 0 0 7\n",
+                               &plain, "lammps_data");
+    expect(&g, SCREE_GRAIN_X, -1, 1);
+    expect(&g, SCREE_GRAIN_RADIUS, 0.1, 0.2);
+    expect(&g, SCREE_GRAIN_VY, 2, 0);
+    expect(&g, SCREE_GRAIN_WZ, 6, 7);
+    assert_true(g.bounded && g.bounds[1][1] == 2);
+    scree_grains_destroy(&g);
+}
+
+static void exports_of_yade(void **unused)
+{
+    (void)unused;
+    scree_grains g =
+        read_text("#format x_y_z_r_matId\n1e-3\t2e-3\t3e-3\t5e-4\t1\n4e-3\t5e-3\t6e-3\t4e-4\t0\n", &plain, "yade");
+    expect(&g, SCREE_GRAIN_Z, 3e-3, 6e-3);
+    expect(&g, SCREE_GRAIN_RADIUS, 5e-4, 4e-4);
+    assert_string_equal(g.kind_name[g.kind[0]], "1");
+    scree_grains_destroy(&g);
+}
+
+static void what_is_wrong_is_shown(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        int line, column;
+        const char *message;
+    } wrong[] = {
+        {"x, y, radios\n1, 2, 3\n", 1, 7, "did you mean 'radius'"},
+        {"x, y, radius\n1, 2, 3\n1, nan, 3\n", 3, 4, "'nan' is not a finite number"},
+        {"x, y, radius\n1, 2\n", 2, 1, "this row has 2 values; 3 columns are named"},
+        {"x, radius\n1, 2\n", 2, 1, "the column y is missing"},
+        {"id, x, y\n4, 2, 1\n4, 3, 1\n", 3, 1, "two grains have the id 4"},
+        {"x [s], y\n4, 2\n", 1, 1, "unit of the column x"},
+        {"x, y, x\n4, 2, 1\n", 1, 7, "this column is there twice"},
+        {"x, y\n", 1, 1, "the file has no grains"},
+        {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS id x y z\n1 0 0 0\n", 6, 1, "after 1 of 3 grains"},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        scree_grains g;
+        scree_error error;
+        const char *path = write_file("grains", wrong[k].text);
+        assert_int_equal(scree_grains_read(path, &plain, &g, &error), SCREE_ERROR_INPUT);
+        if (!strstr(error.message, wrong[k].message) || error.line != wrong[k].line || error.column != wrong[k].column)
+            fail_msg("%d:%d: %s", error.line, error.column, error.message);
+        assert_string_equal(error.file, path);
+        assert_null(g.column[0]);
+    }
+}
+
+/// Against all pairs.
+static void overlaps_are_found(void **unused)
+{
+    (void)unused;
+    enum { N = 400 };
+    static double x[N], y[N], z[N], radius[N];
+    for (int round = 0; round < 20; round++) {
+        for (int i = 0; i < N; i++) {
+            x[i] = drand48() * (round % 3 ? 1 : 50);
+            y[i] = drand48() - 3;
+            z[i] = drand48();
+            radius[i] = 0.01 + 0.04 * drand48() * drand48();
+        }
+        const double *const place[3] = {x, y, round % 2 ? z : NULL};
+        scree_given_overlap found;
+        scree_error error;
+        check(scree_given_find_overlap(N, place, radius, 0.05, &found, &error), &error);
+        size_t count = 0, first = 0, second = 0;
+        double worst = 0;
+        for (size_t i = 0; i < N; i++)
+            for (size_t k = i + 1; k < N; k++) {
+                const double apart =
+                    sqrt(pow(x[i] - x[k], 2) + pow(y[i] - y[k], 2) + (round % 2 ? pow(z[i] - z[k], 2) : 0));
+                const double share = (radius[i] + radius[k] - apart) / fmin(radius[i], radius[k]);
+                count += share > 0.05;
+                if (share > worst) worst = share, first = i, second = k;
+            }
+        assert_int_equal(found.count, count);
+        if (count > 0) assert_true(found.first == first && found.second == second);
+    }
+}
+
+// ---- cases ---------------------------------------------------------------------------------------------------------
+
+#define HEAD                                                                                                           \
+    "scree: 1\nname: own\nmaterials:\n"                                                                                \
+    "- {name: sand, young_modulus: 10 MPa, density: 2000 kg/m3, friction: 0.3}\n"                                      \
+    "- {name: clay, young_modulus: 10 MPa, density: 1000 kg/m3, friction: 0.3}\n"
+#define SIZES                                                                                                          \
+    "particles: {shape: disc, material: sand, count: 3, distribution: uniform, radius_min: 0.5 mm, radius_max: 1 "     \
+    "mm}\n"
+#define OUT "output: {figures: no, paraview: no}\nintegrator: {step: 1 ns}\n"
+
+static void a_case_starts_from_a_file(void **unused)
+{
+    (void)unused;
+    char text[4000];
+    const char *path =
+        write_file("grains.csv", "x [mm],y [mm],radius [mm],vx,vy,spin,angle,material\n"
+                                 "1.5,1,1,0.1,0,3,0.5,sand\n4,1,0.5,0,0,0,0,clay\n6,2,0.75,-0.2,0.1,0,1,2\n");
+    (void)snprintf(text, sizeof text,
+                   HEAD SIZES OUT "stages:\n- {stage: prepare, method: file, file: %s, width: 8 mm, height: 4 mm}\n"
+                                  "- {stage: relax, duration: 1 us, boundary: plates}\n",
+                   path);
+    scree_case *c = case_read(text, NULL, 0);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    simulation_step(&s); // prepares; then 1 ns
+    const scree_state *state = &s.state;
+    assert_int_equal(state->count, 3);
+    for (size_t id = 0; id < 3; id++) {
+        static const double x[] = {1.5e-3, 4e-3, 6e-3}, r[] = {1e-3, 0.5e-3, 0.75e-3}, vx[] = {0.1, 0, -0.2},
+                            density[] = {2000, 1000, 1000}, angle[] = {0.5, 0, 1};
+        const size_t row = state->row_of_id[id];
+        assert_true(fabs(state->row[row].x - x[id]) < 1e-9 && fabs(state->row[row].radius - r[id]) < 1e-15);
+        assert_true(fabs(state->row[row].vx - vx[id]) < 1e-6 && fabs(state->angle[row] - angle[id]) < 1e-6);
+        assert_true(fabs(state->row[row].mass / (density[id] * M_PI * r[id] * r[id] * s.model.thickness) - 1) < 1e-12);
+        assert_int_equal(s.model.listed[scree_body_material(state, row)], density[id] == 1000);
+    }
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+/// That one of the problems of a case says `message`.
+static void expect_case_refused(const char *text, const char *const *overrides, size_t count, const char *message)
+{
+    scree_case *c;
+    scree_problems *problems;
+    char line[2048] = "";
+    assert_int_not_equal(case_parse(text, overrides, count, &c, &problems), SCREE_OK);
+    bool found = false;
+    for (size_t k = 0; k < scree_problems_count(problems); k++) {
+        scree_error_format(scree_problems_get(problems, k), line, sizeof line);
+        found = found || strstr(line, message);
+    }
+    if (!found) fail_msg("'%s' is not said; the last problem is: %s", message, line);
+    scree_problems_free(problems);
+}
+
+/// The message for a table of grains in a case; overrides behind it.
+static void expect_refused(const char *table, const char *const *overrides, size_t count, const char *message)
+{
+    char text[4000];
+    const char *path = write_file("wrong.csv", table);
+    (void)snprintf(text, sizeof text,
+                   HEAD SIZES OUT "stages:\n- {stage: prepare, method: file, file: %s, width: 8 mm, height: 4 mm}\n"
+                                  "- {stage: relax, duration: 1 us, boundary: plates}\n",
+                   path);
+    expect_case_refused(text, overrides, count, message);
+}
+
+static void cases_are_checked(void **unused)
+{
+    (void)unused;
+    static const char fine[] = "x [mm],y [mm],radius [mm]\n1.5,1,1\n4,1,0.5\n6,2,0.75\n";
+    const char *const four[] = {"particles.count=4"}, *const narrow[] = {"particles.radius_max=0.8 mm"},
+                      *const space[] = {"dimension=3", "particles.shape=sphere"},
+                      *const checksum[] = {"stages.0.checksum=x12"};
+    expect_refused(fine, four, 1, "stages.0 gives 3 bodies");
+    expect_refused(fine, narrow, 1, "radii of the file go from 0.0005 to 0.001 m");
+    expect_refused(fine, space, 2, "no column z");
+    expect_refused(fine, checksum, 1, "the file has changed");
+    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n4,1,0.5\n9,2,0.75\n", NULL, 0, "1 of 3 grains lie outside");
+    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n2,1,0.5\n6,2,0.75\n", NULL, 0, "grains 0 and 1 (from 0) most");
+    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n4,x,0.5\n", NULL, 0, "'x' is not a finite number");
+    expect_refused("x [mm],y [mm],z [mm],radius [mm]\n1.5,1,1,1\n4,1,2,0.5\n6,2,2,0.75\n", NULL, 0,
+                   "they lie in space");
+    expect_refused("x [mm],y [mm],radius [mm],material\n1.5,1,1,silt\n4,1,0.5,sand\n6,2,0.75,sand\n", NULL, 0,
+                   "no material 'silt'");
+    expect_refused("x [mm],y [mm]\n1.5,1\n4,1\n6,2\n", NULL, 0, "the file has no radii");
+}
+
+/// A list may stand in a table, too: its columns are the keys of each element.
+static void gradings_stand_in_files(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *table, *message;
+    } wrong[] = {
+        {"0.5, 0\n2, 100\n", "the first row does not name the columns"},
+        {"sieve [mm], pasing [%]\n0.5, 0\n2, 100\n", "did you mean 'passing'"},
+        {"sieve [mm], passing [%]\n0.5, 0\n2, 100, 3\n", "more values than the first has names"},
+        {"sieve [mm], passing [%]\n0.5, 0\n1, 60\n2, 50\n3, 100\n", "the curve falls: 60 % pass the sieve of 1 mm"},
+        {"sieve [mm], passing [%]\n0.5, 0\n", "1 element is too few"},
+    };
+    char text[4000];
+    const char *path = write_file("grading.csv", "sieve [mm]; passing [%]\n0.5; 0\n2; 100\n");
+    static const char form[] =
+        HEAD OUT "particles: {shape: disc, material: sand, count: 3, distribution: grading, grading: %s}\n"
+                 "stages:\n- {stage: prepare, method: gas}\n- {stage: relax, duration: 1 us, boundary: plates}\n";
+    (void)snprintf(text, sizeof text, form, path);
+    scree_case *c = case_read(text, NULL, 0);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    assert_true(s.model.radius_min == 0.25e-3 && s.model.radius_max == 1e-3);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        (void)snprintf(text, sizeof text, form, write_file("grading.csv", wrong[k].table));
+        expect_case_refused(text, NULL, 0, wrong[k].message);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_have_names_and_units), cmocka_unit_test(dumps_of_lammps),
+        cmocka_unit_test(data_files_of_lammps),        cmocka_unit_test(exports_of_yade),
+        cmocka_unit_test(what_is_wrong_is_shown),      cmocka_unit_test(overlaps_are_found),
+        cmocka_unit_test(a_case_starts_from_a_file),   cmocka_unit_test(cases_are_checked),
+        cmocka_unit_test(gradings_stand_in_files),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}
