@@ -15,7 +15,8 @@ extern "C" {
 
 /// What is measured, as on the command line (`scree measure --help`); NULL or 0: as there without the option.
 typedef struct scree_measure_options {
-    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity,elastic", or some of them; elastic needs `from`
+    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity,elastic", or some of them; elastic
+                         ///< needs `from`
     const char *cuts;    ///< "5", a number of cuts, or "0,0.25,0.5", their relative heights
     const char *element; ///< "150", grains in an element, or "30 mm", its side
     const char *grid;    ///< "100x50", points of a map; in 3D x and z in the middle of y, or "20x20x20"
@@ -31,6 +32,9 @@ typedef struct scree_measure_options {
     void (*message)(void *user, const char *line); ///< what was found, line by line; may be NULL
     void *user;
 } scree_measure_options;
+
+/// Whether `scree_measure` could read these options. Errors: SCREE_ERROR_INPUT with the option as field.
+SCREE_API scree_status scree_measure_check(const scree_measure_options *options, scree_error *error);
 
 /// Measures the runs in these folders and writes tables, values and figures (docs/output.md, "Measured averages").
 /// Several runs are an ensemble: means with bootstrap bands over them. Errors: SCREE_ERROR_INPUT with the option as

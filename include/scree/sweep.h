@@ -111,6 +111,8 @@ typedef struct scree_report_options {
     size_t directory_count;
     const char *const *statements; ///< files, or names of built-in tables
     size_t statement_count;        ///< 0: all built-in tables
+    const char *figures;           ///< folder that figures of ensembles are copied into; NULL: the page has none
+    const char *figures_link;      ///< how the page calls that folder
 } scree_report_options;
 
 /// Compares what sources state with the results of runs and sweeps, and writes the page as Markdown. Statements whose

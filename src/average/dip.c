@@ -72,6 +72,28 @@ static void check(const double *halves, size_t piles, size_t count, double *sum,
     dip->p = test(difference, piles);
 }
 
+/// `checked` of resamples of whole piles, in which all copies of a pile are left out together.
+static void resample_checked(const double *halves, size_t piles, size_t count, double *sum, double *draw,
+                             scree_average_dip *dip)
+{
+    for (size_t b = 0; b < SCREE_AVERAGE_BOOTSTRAP; b++) {
+        double centre = 0, most = 0;
+        for (size_t i = 0; i < piles; i++) {
+            const double *half = halves + scree_average_drawn(b, i, piles) * count;
+            for (size_t j = 0; j < count; j++) sum[j] = 0;
+            for (size_t k = 0; k < piles; k++) {
+                const double *other = halves + scree_average_drawn(b, k, piles) * count;
+                for (size_t j = 0; j < count && other != half; j++) sum[j] += other[j];
+            }
+            centre += half[0];
+            most += half[find_most(sum, count)];
+        }
+        draw[b] = most > 0 ? 1 - centre / most : NAN;
+    }
+    dip->checked_low = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, scree_average_tail(piles));
+    dip->checked_high = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, 1 - scree_average_tail(piles));
+}
+
 static void resample(const double *halves, size_t piles, size_t count, double *sum, double *draw,
                      scree_average_dip *dip)
 {
@@ -79,8 +101,8 @@ static void resample(const double *halves, size_t piles, size_t count, double *s
         add_up(halves, piles, count, b, SIZE_MAX, sum);
         draw[b] = dip_of(sum, count);
     }
-    dip->low = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, 0.025);
-    dip->high = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, 0.975);
+    dip->low = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, scree_average_tail(piles));
+    dip->high = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, 1 - scree_average_tail(piles));
 }
 
 /// The mean of each pile and its mirror image, from the axis outwards.
@@ -99,7 +121,7 @@ scree_status scree_average_dip_find(const double *profile, size_t piles, size_t 
 {
     const size_t count = points / 2 + 1;
     double *halves = NULL, *sum = NULL, *difference = NULL, *draw = NULL;
-    *dip = (scree_average_dip){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    *dip = (scree_average_dip){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     scree_status status = scree_allocate(&halves, piles * count, sizeof *halves, error);
     if (!status) status = scree_allocate(&sum, count, sizeof *sum, error);
     if (!status) status = scree_allocate(&difference, piles, sizeof *difference, error);
@@ -115,6 +137,7 @@ scree_status scree_average_dip_find(const double *profile, size_t piles, size_t 
         if (piles > 1) {
             check(halves, piles, count, sum, difference, dip);
             resample(halves, piles, count, sum, draw, dip);
+            resample_checked(halves, piles, count, sum, draw, dip);
         }
     }
     scree_release(&halves);

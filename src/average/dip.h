@@ -4,9 +4,10 @@
 /// mirror image are ONE sample: of each pile the mean of both is taken, m_i(j) = (s_i(j) + s_i(-j)) / 2, and M is their
 /// mean over the piles.
 ///     dip      1 - M(0) / max_j M(j)                          never negative
-///     low, high  2.5 and 97.5 % quantiles of the same of resamples of whole piles (bootstrap)
+///     low, high  interval of 95 % of the same, from resamples of whole piles (bootstrap, as in average/table.h)
 ///     checked  1 - sum_i m_i(0) / sum_i m_i(j_i), j_i where the mean of the OTHER piles is largest: without the bias
-///              towards a dip that looking for the largest of noisy numbers has; it may be negative
+///              towards a dip that looking for the largest of noisy numbers has; it may be negative; its interval is
+///              that of resamples of whole piles, of which all copies of one are left out together
 ///     p        of no dip: share of the changes of sign of the differences m_i(j_i) - m_i(0) whose sum is at least as
 ///              large (R. A. Fisher's randomisation test; all of them up to 12 piles, else 20000 drawn ones): the least
 ///              it can be is 1 over their number
@@ -23,6 +24,7 @@ typedef struct scree_average_dip {
     double place;  ///< of the largest pressure, 0 to 1: distance from the axis over the half width
     double centre; ///< Pa, M(0)
     double most;   ///< Pa
+    double checked_low, checked_high;
 } scree_average_dip;
 
 /// profile: piles x points, points odd. Numbers that are none are no pressure. Errors: memory.

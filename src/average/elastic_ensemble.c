@@ -93,8 +93,10 @@ static void fill_row(const scree_average_table *table, size_t count, const colum
     }
     for (int k = 0; k < CONSTANTS; k++) {
         if (c->constant[k] == SIZE_MAX) continue;
-        set(low, row, c->constant[k], scree_average_quantile(draws[k], SCREE_AVERAGE_BOOTSTRAP, 0.025));
-        set(high, row, c->constant[k], scree_average_quantile(draws[k], SCREE_AVERAGE_BOOTSTRAP, 0.975));
+        set(low, row, c->constant[k],
+            scree_average_quantile(draws[k], SCREE_AVERAGE_BOOTSTRAP, scree_average_tail(count)));
+        set(high, row, c->constant[k],
+            scree_average_quantile(draws[k], SCREE_AVERAGE_BOOTSTRAP, 1 - scree_average_tail(count)));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdbool.h>
@@ -72,6 +73,13 @@ size_t scree_average_drawn(size_t resample, size_t draw, size_t count)
 {
     const double uniform = scree_random_uniform(0, SCREE_RANDOM_BOOTSTRAP, (uint64_t)resample << 24 | (uint64_t)draw);
     return (size_t)(uniform * (double)count);
+}
+
+double scree_average_tail(size_t count)
+{
+    const double n = (double)count;
+    if (count < 2) return NAN;
+    return gsl_cdf_ugaussian_P(-gsl_cdf_tdist_Pinv(0.975, n - 1) * sqrt(n / (n - 1)));
 }
 
 double scree_average_quantile(double *value, size_t count, double share)
@@ -145,6 +153,7 @@ scree_status scree_average_table_mean(const scree_average_table *table, size_t c
 {
     double *draws = NULL;
     uint32_t *drawn = NULL;
+    const double tail = scree_average_tail(count);
     *mean = (scree_average_table){0};
     if (low) *low = *high = (scree_average_table){0};
     for (size_t k = 1; k < count; k++)
@@ -163,8 +172,8 @@ scree_status scree_average_table_mean(const scree_average_table *table, size_t c
         if (low) low->value[at] = high->value[at] = NAN;
         if (count < 2 || !low) continue;
         resample(table, count, at, drawn, mean->value[at], draws);
-        low->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, 0.025);
-        high->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, 0.975);
+        low->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, tail);
+        high->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, 1 - tail);
     }
     scree_release(&draws);
     scree_release(&drawn);

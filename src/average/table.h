@@ -1,9 +1,12 @@
 /// Tables of averages: rows of numbers under named columns, and the mean of several tables of one form with bands.
 ///
 /// Several tables of one form are those of the samples of an ensemble. Of each number the mean over the samples that
-/// have it is taken, and the interval between the 2.5 and 97.5 % quantiles of the means of BOOTSTRAP resamples (B.
-/// Efron, Ann. Statist. 7, 1, 1979): whole samples are drawn with replacement, since places within one are not
-/// independent. Random numbers are counter-based: the same bands in every call.
+/// have it is taken, and an interval of 95 % between quantiles of the means of BOOTSTRAP resamples (B. Efron, Ann.
+/// Statist. 7, 1, 1979): whole samples are drawn with replacement, since places within one are not independent. Means
+/// of resamples scatter by less than the mean of few samples does: the quantiles are those at which Student's interval
+/// of n normal numbers would end (T. Hesterberg, Am. Stat. 69, 371, 2015, expanded percentile interval), not 2.5 and
+/// 97.5 %. They cannot leave the range of the samples, so that fewer than five have too narrow ones. Random numbers are
+/// counter-based: the same bands in every call.
 #ifndef SCREE_AVERAGE_TABLE_H
 #define SCREE_AVERAGE_TABLE_H
 
@@ -48,6 +51,10 @@ scree_status scree_average_table_mean(const scree_average_table *table, size_t c
 
 /// Place (0 to count - 1) of draw `draw` of resample `resample` of an ensemble.
 size_t scree_average_drawn(size_t resample, size_t draw, size_t count);
+
+/// Share of resamples below the interval of an ensemble of `count` samples, as many as above it: Phi(-t (n / (n -
+/// 1))^(1/2)) with Student's t of 97.5 % and n - 1 degrees of freedom.
+double scree_average_tail(size_t count);
 
 /// The quantile (0 to 1) of the finite ones of some values, which are sorted; NAN without one.
 double scree_average_quantile(double *value, size_t count, double share);

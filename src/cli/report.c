@@ -4,6 +4,7 @@
 #include "cli/terminal.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,12 +25,27 @@ static bool put_file(const char *path, const char *text, size_t length)
     return written;
 }
 
-scree_status scree_report_to_file(const char *verb, const scree_report_options *options, const char *path)
+/// Figures of NAME.md lie beside it in NAME-figures.
+static void find_figures(const char *path, char folder[PATH_MAX], scree_report_options *options)
 {
-    char *text = NULL;
+    const size_t length = path ? strlen(path) : 0;
+    const size_t stem = length > 3 && strcmp(path + length - 3, ".md") == 0 ? length - 3 : length;
+    if (!path || stem + 16 > PATH_MAX) return;
+    (void)snprintf(folder, PATH_MAX, "%.*s-figures", (int)stem, path);
+    const char *slash = strrchr(folder, '/');
+    options->figures = folder;
+    options->figures_link = slash ? slash + 1 : folder;
+}
+
+scree_status scree_report_to_file(const char *verb, const scree_report_options *given, const char *path)
+{
+    scree_report_options with_figures = *given;
+    const scree_report_options *options = &with_figures;
+    char *text = NULL, folder[PATH_MAX];
     size_t length;
     scree_error error = {.status = SCREE_ERROR_IO, .message = "out of memory"};
     scree_problems *problems = NULL;
+    find_figures(path, folder, &with_figures);
     FILE *memory = open_memstream(&text, &length);
     if (!memory) return scree_terminal_error(verb, &error);
     scree_status status = scree_report_write(options, memory, &problems, &error);

@@ -149,6 +149,12 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
     return status;
 }
 
+scree_status scree_measure_check(const scree_measure_options *options, scree_error *error)
+{
+    measure_plan plan;
+    return measure_plan_read(options, &plan, error);
+}
+
 scree_status scree_measure(const char *const *runs, size_t count, const scree_measure_options *options,
                            scree_error *error)
 {

@@ -55,11 +55,13 @@ static scree_status write_dips(const char *folder, const char *name, const measu
     scree_status status = scree_path_join(path, sizeof path, folder, name, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (status) return status;
-    fputs("height [1],dip [1],dip_low [1],dip_high [1],checked [1],p [1],place [1],centre [1],most [1]\n", file);
+    fputs("height [1],dip [1],dip_low [1],dip_high [1],checked [1],checked_low [1],checked_high [1],p [1],place [1],"
+          "centre [1],most [1]\n",
+          file);
     for (size_t k = 0; k < plan->average.cuts; k++) {
         const scree_average_dip *d = &dips[k];
-        fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", plan->average.height[k], d->dip, d->low,
-                d->high, d->checked, d->p, d->place, d->centre, d->most);
+        fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", plan->average.height[k], d->dip,
+                d->low, d->high, d->checked, d->checked_low, d->checked_high, d->p, d->place, d->centre, d->most);
     }
     return scree_replace_finish(path, file, true, error);
 }
@@ -85,6 +87,30 @@ static void set_warnings(scree_summary *summary, const scree_average_table *valu
     scree_summary_set_text(summary, "warnings", text);
 }
 
+/// A number of a dip.
+static void set_part(scree_summary *summary, const char *name, const char *part, double value)
+{
+    char whole[64];
+    (void)snprintf(whole, sizeof whole, "%s%s", name, part);
+    scree_summary_set_number(summary, whole, value);
+}
+
+/// The dip of the lowest cut (NULL: there is none); not `whole`: itself is told already.
+static void set_dip(scree_summary *summary, const char *name, const scree_average_dip *dip, bool whole)
+{
+    if (!dip) return;
+    if (whole) {
+        set_part(summary, name, "", dip->dip);
+        set_part(summary, name, "_low", dip->low);
+        set_part(summary, name, "_high", dip->high);
+    }
+    set_part(summary, name, "_checked", dip->checked);
+    set_part(summary, name, "_checked_low", dip->checked_low);
+    set_part(summary, name, "_checked_high", dip->checked_high);
+    set_part(summary, name, "_p", dip->p);
+    set_part(summary, name, "_place", dip->place);
+}
+
 static void set_values(scree_summary *summary, const measure_found *found)
 {
     const scree_average_table *mean = &found->mean.of[MEASURE_VALUES];
@@ -99,24 +125,10 @@ static void set_values(scree_summary *summary, const measure_found *found)
         (void)snprintf(name, sizeof name, "%s_high", mean->column[k].name);
         scree_summary_set_number(summary, name, found->high.of[MEASURE_VALUES].value[k]);
     }
-    if (found->strain_dip) {
-        // One sample has it among its values.
-        if (found->runs > 1) {
-            scree_summary_set_number(summary, "strain_dip", found->strain_dip->dip);
-            scree_summary_set_number(summary, "strain_dip_low", found->strain_dip->low);
-            scree_summary_set_number(summary, "strain_dip_high", found->strain_dip->high);
-        }
-        scree_summary_set_number(summary, "strain_dip_checked", found->strain_dip->checked);
-        scree_summary_set_number(summary, "strain_dip_p", found->strain_dip->p);
-        scree_summary_set_number(summary, "strain_dip_place", found->strain_dip->place);
-    }
+    // One sample has that of strains among its values.
+    set_dip(summary, "strain_dip", found->strain_dip, found->runs > 1);
+    set_dip(summary, "dip", found->dip, true);
     if (!found->dip) return;
-    scree_summary_set_number(summary, "dip", found->dip->dip);
-    scree_summary_set_number(summary, "dip_low", found->dip->low);
-    scree_summary_set_number(summary, "dip_high", found->dip->high);
-    scree_summary_set_number(summary, "dip_checked", found->dip->checked);
-    scree_summary_set_number(summary, "dip_p", found->dip->p);
-    scree_summary_set_number(summary, "dip_place", found->dip->place);
     scree_summary_set_number(summary, "dip_height", found->dip_height);
 }
 

@@ -1,5 +1,6 @@
 /// Values realisation by realisation, their interval, the verdict, and the remarks.
 #include "sweep/answer.h"
+#include "sweep/ensemble.h"
 
 #include "base/memory.h"
 #include "sweep/expression.h"
@@ -336,6 +337,92 @@ static void judge(const question *q, const side *s)
     answer->verdict = scree_verdict_of(q->statement, &answer->interval);
 }
 
+// ---- ensembles ---------------------------------------------------------------------------------------------------
+
+/// Results of ensembles that an expression names, in its order.
+typedef struct naming {
+    const question *q;
+    scree_ensemble_value value[SCREE_ENSEMBLE_NAMES];
+    size_t group_runs[SCREE_ENSEMBLE_NAMES]; ///< of each reference of the side
+    size_t count, others;                    ///< names, and those of single runs
+    char missing[160];
+} naming;
+
+/// The averages over the most members of a point, where several folders have some.
+static size_t find_ensemble(const question *q, const scree_reference *reference, const char **folder, size_t *done)
+{
+    size_t most = 0;
+    *done = 0;
+    for (const scree_finding *f = next_run(q, reference, NULL); f; f = next_run(q, reference, f)) {
+        const bool known = most > 0 && strcmp(f->ensemble, *folder) == 0;
+        const size_t runs = known ? 0 : scree_ensemble_runs(f->ensemble);
+        *done += f->state == SCREE_FINDING_DONE;
+        if (runs > most) *folder = f->ensemble;
+        if (runs > most) most = runs;
+    }
+    return most;
+}
+
+static double note_ensemble(void *user, const char *name)
+{
+    naming *n = user;
+    const char *folder = "", *result;
+    size_t done;
+    scree_reference reference;
+    if (!scree_reference_read(name, &reference)) return 1;
+    const bool one = scree_reference_is_ensemble(&reference);
+    n->others += !one;
+    if (!one || n->count == SCREE_ENSEMBLE_NAMES) return 1;
+    result = reference.result + sizeof SCREE_ENSEMBLE_PREFIX - 1;
+    const size_t group = reference_index(n->q->side, &reference),
+                 runs = find_ensemble(n->q, &reference, &folder, &done);
+    if (runs != done && n->group_runs[group] == 0)
+        remark(n->q->answer, "averages over %zu of the %zu runs that are done: call `scree sweep --collect`", runs,
+               done);
+    n->group_runs[group] = runs;
+    scree_ensemble_value *value = &n->value[n->count++];
+    *value = scree_ensemble_get(folder, result);
+    value->group = group;
+    if (isnan(value->middle)) (void)snprintf(n->missing, sizeof n->missing, "%.150s", reference.result);
+    return 1;
+}
+
+/// Least number of runs of the ensembles that are meant.
+static size_t fewest_runs(const naming *n)
+{
+    size_t fewest = SIZE_MAX;
+    for (size_t k = 0; k < n->count; k++)
+        if (n->group_runs[n->value[k].group] < fewest) fewest = n->group_runs[n->value[k].group];
+    return n->count > 0 ? fewest : 0;
+}
+
+/// An expression of averages over members, which has one value and its interval.
+static scree_status settle_ensembles(question *q, side *s, bool *mine)
+{
+    naming n = {.q = q};
+    double ignored;
+    scree_interval *interval = &q->answer->interval;
+    q->side = s;
+    scree_status status = scree_expression_evaluate(q->statement->value, note_ensemble, &n, &ignored, q->error);
+    *mine = n.count > 0;
+    if (status || n.count == 0) return status;
+    q->answer->verdict = SCREE_NOT_MEASURED;
+    if (n.others > 0 || n.count == SCREE_ENSEMBLE_NAMES || q->statement->kind == SCREE_CRITERION_HOLDS) {
+        q->answer->verdict = SCREE_UNDECIDED;
+        remark(q->answer, "results of ensembles make no value with those of single runs, nor `holds`");
+        return SCREE_OK;
+    }
+    if (n.missing[0]) remark(q->answer, "no result '%s'", n.missing);
+    if (n.missing[0]) return SCREE_OK;
+    status = scree_ensemble_evaluate(q->statement->value, n.value, n.count, &interval->middle, &interval->low,
+                                     &interval->high, q->error);
+    interval->count = fewest_runs(&n);
+    if (q->statement->deterministic) interval->low = interval->high = interval->middle;
+    if (interval->count == 1 && !q->statement->deterministic) remark(q->answer, "one sample: no interval");
+    q->answer->verdict = scree_verdict_of(q->statement, interval);
+    return status;
+}
+
 scree_status scree_answer_find(const scree_findings *findings, const scree_statement *statement,
                                scree_finding_form form, scree_answer *answer, scree_error *error)
 {
@@ -343,7 +430,10 @@ scree_status scree_answer_find(const scree_findings *findings, const scree_state
     side whole;
     *answer = (scree_answer){.verdict = SCREE_NOT_RUN, .interval = {NAN, NAN, NAN, 0}};
     scree_status status = open_side(&q, statement->value, &whole);
-    if (!status && has_runs(&q, &whole)) {
+    bool there = !status && has_runs(&q, &whole), ensemble = false;
+    if (there) status = settle_ensembles(&q, &whole, &ensemble);
+    if (there && ensemble && !status) remark_runs(&q, &whole);
+    if (there && !ensemble && !status) {
         status = evaluate(&q, &whole);
         bool one_sample = whole.strangers == 0 && (whole.samples > 0 || whole.reference_count == 1);
         if (!status && one_sample) {

@@ -1,6 +1,7 @@
 /// Finding runs: by summary.json (a run) and sweep.json (a sweep, which lists its members). Whether a member is done is
 /// what its own summary.json says: sweep.json may be older.
 #include "sweep/findings.h"
+#include "sweep/ensemble.h"
 
 #include "base/memory.h"
 #include "io/run_directory.h"
@@ -119,6 +120,7 @@ static scree_status add_member(scree_findings *findings, const char *directory, 
     (void)snprintf(finding.label, sizeof finding.label, "%s", label);
     (void)snprintf(path, sizeof path, "members/%s", folder);
     scree_status joined = scree_path_join(finding.directory, sizeof finding.directory, directory, path, error);
+    if (!joined) joined = scree_ensemble_folder(finding.ensemble, sizeof finding.ensemble, directory, label, error);
     if (joined) return joined;
     (void)read_summary(&finding);
     return add(findings, &finding, error);

@@ -24,6 +24,7 @@ typedef struct scree_finding {
     scree_finding_state state;
     long long seed;
     char directory[PATH_MAX];
+    char ensemble[PATH_MAX]; ///< folder of the averages over the members of its point; "" for a run by itself
     // What the sample and the program were, of one that is done; NAN and "" where the run does not say.
     double particles, friction, solid_fraction, coordination;
     double gap_scatter; ///< of a dense packing, whose solid fraction no boundary may measure

@@ -1,5 +1,6 @@
 /// Names in a table of statements: of sweeps and cases, of points of a grid, of results. What exists is what is built
 /// in and what was found; a result is known where a run of that name has it, or its sweep averages it.
+#include "sweep/ensemble.h"
 #include "sweep/expression.h"
 #include "sweep/findings.h"
 #include "sweep/statements.h"
@@ -92,12 +93,23 @@ static const scree_finding *list_points(const checking *c, const scree_reference
     return run;
 }
 
+/// Results of an ensemble have the prefix in expressions.
+static void collect_ensemble(void *user, const char *name, const char *value)
+{
+    char whole[200];
+    (void)snprintf(whole, sizeof whole, SCREE_ENSEMBLE_PREFIX "%s", name);
+    collect_result(user, whole, value);
+}
+
 static void check_result(const checking *c, const scree_reference *r, const scree_sweep *sweep,
                          const scree_finding *run)
 {
     names known = {.count = 0};
     collecting all = {c->reader->arena, &known};
     if (!run || scree_result_visit(run->directory, collect_result, &all, NULL)) return;
+    // Before the members are averaged nobody knows what comes of it.
+    if (scree_reference_is_ensemble(r) && scree_ensemble_runs(run->ensemble) == 0) return;
+    scree_ensemble_visit(run->ensemble, collect_ensemble, &all);
     for (size_t k = 0; sweep && k < sweep->measure_count; k++) names_add(&known, sweep->measure[k]);
     if (!names_have(&known, r->result)) refuse(c, c->statement->value_place, r->result, "result", &known);
 }

@@ -2,6 +2,7 @@
 #include "case/case.h"
 #include "case/templates.h"
 #include "sweep/bisect.h"
+#include "sweep/ensemble.h"
 #include "sweep/sweep.h"
 #include "sweep/templates.h"
 
@@ -207,6 +208,22 @@ static void check_bisect(scree_reader *reader, const scree_sweep *sweep)
     }
 }
 
+/// Options of the averages over members, which have to be those of `scree measure`.
+static void check_ensemble(scree_reader *reader, scree_sweep *sweep)
+{
+    const scree_node *section = scree_node_find(reader->root, "ensemble");
+    const scree_measure_options options = scree_ensemble_options(&sweep->config.ensemble);
+    scree_error error = {0};
+    sweep->measures_ensembles = section != NULL;
+    if (!section || !scree_measure_check(&options, &error)) return;
+    const char *key = strncmp(error.field, "--", 2) == 0 ? error.field + 2 : error.field;
+    const scree_node *node = scree_node_find(section, key);
+    char path[80];
+    (void)snprintf(path, sizeof path, "ensemble.%.60s", key);
+    scree_problem_add(reader, node ? node->place : section->place, path, node ? node->text : NULL, error.accepted, "%s",
+                      error.message);
+}
+
 /// --set of the command line, for all members and after everything else.
 static void keep_overrides(scree_reader *reader, scree_sweep *sweep, const scree_sweep_read_options *options)
 {
@@ -253,6 +270,7 @@ static void apply_rules(scree_reader *reader, void *user)
     check_measures(reader, sweep);
     keep_overrides(reader, sweep, r->in->options);
     keep_bisect(reader, sweep);
+    check_ensemble(reader, sweep);
     if (!scree_sweep_expand(reader, sweep) || !sweep->case_text) return;
     scree_sweep_check_cases(reader, sweep);
     if (scree_problems_count(reader->problems) == 0) check_told(reader, sweep);

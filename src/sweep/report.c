@@ -2,6 +2,7 @@
 /// form before the quick one, is counted. Nothing on the page depends on the day or the machine but the results
 /// themselves.
 #include "sweep/answer.h"
+#include "sweep/ensemble_figures.h"
 #include "sweep/runs_table.h"
 #include "sweep/templates.h"
 
@@ -25,6 +26,7 @@ typedef struct page {
     const scree_findings *findings;
     counts *counts;  ///< of the source
     FILE *explained; ///< notes below the table of a case
+    const scree_report_options *options;
     scree_error *error;
 } page;
 
@@ -148,7 +150,9 @@ static scree_status put_group(page *p, const scree_statement_group *group)
     if (fclose(p->explained) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
     if (!status && notes[0]) (void)fprintf(p->file, "\nNotes:\n\n%s", notes);
     free(notes);
-    return status;
+    if (status) return status;
+    return scree_ensemble_figures_write(p->findings, group->name, p->options->figures, p->options->figures_link,
+                                        p->file, p->error);
 }
 
 static const char introduction[] =
@@ -267,7 +271,7 @@ scree_status scree_report_write(const scree_report_options *options, FILE *file,
         status = scree_findings_add(&findings, options->directory[i], error);
     FILE *head = open_memstream(&head_text, &length), *body = open_memstream(&body_text, &length);
     if (!status && (!head || !body)) status = scree_error_set_memory(error, 4096);
-    page p = {.file = body, .findings = &findings, .error = error};
+    page p = {.file = body, .findings = &findings, .options = options, .error = error};
     if (!status) status = put_sources(&p, options, head, &own);
     if (head && fclose(head) != 0 && !status) status = scree_error_set_memory(error, 4096);
     if (body && fclose(body) != 0 && !status) status = scree_error_set_memory(error, 4096);

@@ -1,5 +1,6 @@
 /// Reading what the members left behind, and collecting it into tables, curves and figures.
 #include "sweep/results.h"
+#include "sweep/ensemble.h"
 
 #include "base/memory.h"
 #include "io/run_directory.h"
@@ -173,6 +174,7 @@ static scree_status collect(const scree_sweep *sweep, const scree_sweep_options 
     if (!status) status = scree_sweep_write_record(&results, error);
     if (!status && results.done > 0) status = make_curves(&results, error);
     if (!status && results.done > 0 && options->figures) scree_sweep_draw_measures(&results);
+    if (!status) status = scree_ensembles_measure(&results, error);
     warn_of_strangers(sweep, options);
     size_t missing = sweep->member_count - results.done - results.failed;
     if (!status && missing > 0)

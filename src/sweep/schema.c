@@ -81,6 +81,23 @@ static const scree_key bisect_keys[] = {
 static const scree_section bisect_table[] = {
     TABLE("bisect", "Search for a limit by runs, in the place of one run a member.", bisect_keys)};
 
+typedef scree_sweep_ensemble ensemble;
+#define OPTION(member, ...) TEXT(ensemble, member, "400", .standard = "", __VA_ARGS__)
+static const scree_key ensemble_keys[] = {
+    OPTION(fields, .meaning = "Fields that are averaged, as `scree measure --fields`."),
+    OPTION(cuts, .meaning = "Number of cuts, or their relative heights."),
+    OPTION(element, .meaning = "Grains in an element, or its side."),
+    OPTION(grid, .meaning = "Points of a map."),
+    OPTION(kernel, .meaning = "Width of smooth fields."),
+    OPTION(at, .meaning = "Snapshot, or mean over those of a stage."),
+    OPTION(from, .meaning = "Snapshot that displacements and strains begin at."),
+    OPTION(axis, .meaning = "Axis of the pile: mass, apex, or a place."),
+    KEY(ensemble, points, SCREE_KEY_INTEGER, .standard = "0", FROM("0"), TO("10001"),
+        .meaning = "Places along a cut; 0: as many as `scree measure` takes."),
+};
+static const scree_section ensemble_table[] = {TABLE(
+    "ensemble", "Averages over all members of a point, as `scree measure` makes them of several runs.", ensemble_keys)};
+
 typedef scree_sweep_config config;
 static const scree_key root_keys[] = {
     {.name = "sweep",
@@ -116,6 +133,8 @@ static const scree_key root_keys[] = {
          .meaning = "Measures that are drawn over one another, a place for each point of the grid."),
     KEY(config, bisect, SCREE_KEY_SECTION, .sections = bisect_table, .section_count = 1,
         .meaning = "Search for the limit of a number between which runs stand and do not stand."),
+    KEY(config, ensemble, SCREE_KEY_SECTION, .sections = ensemble_table, .section_count = 1,
+        .meaning = "Averages over the members of each point: fields, cuts, dips, with intervals."),
     KEY(config, confidence, SCREE_KEY_NUMBER, .unit = "1", .standard = "95 %", FROM("50 %"), TO("99.9 %"),
         .meaning = "Probability of the confidence intervals."),
 };

@@ -49,6 +49,13 @@ typedef struct scree_sweep_bisect {
     char *curve;
 } scree_sweep_bisect;
 
+/// Averages over the members of a point, as `scree measure` makes them of several runs (ensemble.h). Texts are its
+/// options; "": as there without the option.
+typedef struct scree_sweep_ensemble {
+    char *fields, *cuts, *element, *grid, *kernel, *at, *from, *axis;
+    int64_t points; ///< 0: as there
+} scree_sweep_ensemble;
+
 typedef struct scree_sweep_config {
     int64_t language;
     char *name, *title;
@@ -67,6 +74,7 @@ typedef struct scree_sweep_config {
     scree_sweep_relation *relations;
     int64_t relation_count;
     scree_sweep_bisect bisect;
+    scree_sweep_ensemble ensemble;
 } scree_sweep_config;
 
 extern const scree_section scree_sweep_schema;
@@ -123,6 +131,7 @@ struct scree_sweep {
     size_t measure_count;
     bool bisects;              ///< members are searches for a limit
     scree_bisection bisection; ///< what they search for
+    bool measures_ensembles;   ///< there is a section `ensemble`
     const char **point;        ///< name of each point, unique: "0.3_slow"; "" when nothing varies
     size_t point_count;
     const char **folder; ///< "004-0.3_slow-2" of each member

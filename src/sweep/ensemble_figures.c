@@ -1,0 +1,56 @@
+/// Figures of ensembles, copied beside the page that shows them.
+#include "sweep/ensemble_figures.h"
+#include "sweep/ensemble.h"
+
+#include "io/run_directory.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static const char *const form_names[] = {"full", "quick", "run"};
+
+static scree_status copy_file(const char *from, const char *to, scree_error *error)
+{
+    char block[65536];
+    size_t count;
+    FILE *file, *source = fopen(from, "rbe");
+    if (!source) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", from);
+    scree_status status = scree_replace_begin(to, &file, error);
+    while (!status && (count = fread(block, 1, sizeof block, source)) > 0)
+        if (fwrite(block, 1, count, file) != count) break; // finish says why
+    const bool whole = !ferror(source);
+    (void)fclose(source);
+    return status ? status : scree_replace_finish(to, file, whole, error);
+}
+
+/// The figure of a point, if it has one.
+static scree_status put_figure(const scree_finding *f, const char *folder, const char *link, FILE *page,
+                               scree_error *error)
+{
+    char from[PATH_MAX], to[PATH_MAX], file[320];
+    const char *point = f->label[0] ? f->label : "all";
+    scree_status status = scree_path_join(from, sizeof from, f->ensemble, "cuts-pressure-scaled.png", error);
+    if (status || access(from, R_OK) != 0) return status;
+    (void)snprintf(file, sizeof file, "%s-%s-%s.png", f->name, point, form_names[f->form]);
+    status = scree_folders_make(folder, error);
+    if (!status) status = scree_path_join(to, sizeof to, folder, file, error);
+    if (!status) status = copy_file(from, to, error);
+    if (!status)
+        (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: mean of %zu runs with bands of 95 %%.*\n",
+                      f->name, point, form_names[f->form], link, file, f->name, point, form_names[f->form],
+                      scree_ensemble_runs(f->ensemble));
+    return status;
+}
+
+scree_status scree_ensemble_figures_write(const scree_findings *findings, const char *name, const char *folder,
+                                          const char *link, FILE *page, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (size_t i = 0; i < findings->count && folder && !status; i++) {
+        const scree_finding *f = &findings->item[i];
+        bool first = f->ensemble[0] && strcmp(f->name, name) == 0;
+        for (size_t k = 0; k < i && first; k++) first = strcmp(findings->item[k].ensemble, f->ensemble) != 0;
+        if (first) status = put_figure(f, folder, link, page, error);
+    }
+    return status;
+}
