@@ -63,4 +63,29 @@ expect 2 'no grain to average over' "$scree" measure pile1 --at start
 expect 2 'no grain is in both' "$scree" measure pile1 --from start
 expect 4 'cannot open|no such' "$scree" measure nothing
 [ -e nothing ] && complain "a folder was made of a run that is not there"
+# A sweep that asks for averages over its members makes the same, and its report takes and shows them.
+cat >averaged.yaml <<'END'
+name: averaged
+case: pour-discs
+realisations: 2
+set: {particles.count: 60, sources.spout.interval: 20 ms, output.paraview: no, output.figures: no}
+ensemble: {cuts: "0,0.4"}
+END
+sed 's/0,0.4/0,4/' averaged.yaml >bad.yaml
+expect 2 "bad.yaml:5:19: ensemble.cuts: .*says no heights of cuts" "$scree" sweep bad.yaml -n
+expect 0 'ensemble: averaged/members/000-seed=1: an element holds 6 grains' "$scree" sweep averaged.yaml -o averaged --jobs 2
+expect 0 '' cmp averaged/ensemble/all/cuts.csv both/cuts.csv
+expect 0 '' cmp averaged/ensemble/all/dips.csv both/dips.csv
+cat >statements.yaml <<'END'
+source: "Mine (Q)"
+cases:
+  - case: averaged
+    meaning: What it is.
+    statements:
+      - {id: plate, statement: s, source: Q, given: 1, value: averaged.ensemble_outside_force_ratio, criterion: within 1 %, kind: check}
+END
+expect 0 '' "$scree" report averaged -s statements.yaml -o page.md
+grep -qE '^\| plate .*\| 2 of 2 \| \*\*agrees\*\*' page.md || complain "report of an ensemble: $(grep '^| plate' page.md)"
+grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/averaged-all-full.png ] || complain "no figure in the report"
+
 finish

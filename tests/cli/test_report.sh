@@ -83,4 +83,46 @@ wrong 's/value: mine.r, criterion: within/value: mine\/III.r, criterion: within/
 wrong 's/reason: because/unit: m/' "11:[0-9]+: more: 'form' needs a 'reason'"
 cmp -s page.md before.md || complain "a wrong table changed the page"
 expect 2 'nothing.yaml' "$scree" report runs -s nothing.yaml
+
+# Averages over members: intervals of files, of differences and quotients of different ensembles, of one and the same.
+average() { # FOLDER POINT RUNS RESULT VALUE LOW HIGH
+    mkdir -p "$1/ensemble/$2"
+    echo "{\"runs\": $3, \"$4\": $5, \"$4_low\": $6, \"$4_high\": $7, \"$4_p\": 0.03, \"runs_high\": null}" >"$1/ensemble/$2/summary.json"
+}
+for point in one two; do
+    sweep ens/$point pair false $point <<'END'
+1 done 0.81 aaa 2.0
+2 done 0.82 aaa 2.0
+END
+done
+average ens/one one 2 dip 0.5 0.46 0.53
+average ens/two two 2 dip 0.2 0.16 0.24
+cat >ens.yaml <<'END'
+source: "Mine (Q)"
+cases:
+  - case: pair
+    meaning: What it is.
+    statements:
+      - {id: single, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip, criterion: greater than 0.4, kind: finding}
+      - {id: apart, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip - pair/two.ensemble_dip, criterion: greater than 0.3, kind: finding}
+      - {id: twice, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip + pair/one.ensemble_dip, criterion: greater than 0.9, kind: finding}
+      - {id: ratio, statement: s, source: Q, given: 1, value: 2 / pair/two.ensemble_dip, criterion: less than 8, kind: finding}
+      - {id: level, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip_p, criterion: less than 0.05, kind: finding}
+      - {id: fixed, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip_p, criterion: less than 0.05, kind: finding, deterministic: yes}
+      - {id: mixed, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip - pair/two.r, criterion: less than 5, kind: finding}
+END
+expect 0 '' "$scree" report ens -s ens.yaml -o page.md
+row single | grep -qF '| 0.5 [0.46, 0.53] | 2 of 2 | **agrees** |' || complain "an ensemble: $(row single)"
+# Ends: 0.3 - (0.04^2 + 0.04^2)^(1/2), 0.3 + (0.03^2 + 0.04^2)^(1/2).
+row apart | grep -qF '| 0.3 [0.2434, 0.35] | 2 of 2 | **undecided** |' || complain "two ensembles: $(row apart)"
+row twice | grep -qF '| 1 [0.92, 1.06] | 2 of 2 | **agrees** |' || complain "one ensemble twice: $(row twice)"
+row ratio | grep -qF '| 10 [8.333, 12.5] | 2 of 2 | **differs** |' || complain "a quotient: $(row ratio)"
+row level | grep -qF '| **undecided** |' || complain "a number without interval: $(row level)"
+row fixed | grep -qF '| 0.03 [0.03, 0.03] | 2 of 2 | **agrees** |' || complain "deterministic: $(row fixed)"
+row mixed | grep -qF 'make no value with those of single runs' || complain "mixed: $(row mixed)"
+average ens/two two 3 dip 0.2 0.16 0.24
+expect 0 '' "$scree" report ens -s ens.yaml -o page.md
+row ratio | grep -qF 'averages over 3 of the 2 runs that are done' || complain "old averages: $(row ratio)"
+sed -i 's/two.ensemble_dip,/two.ensemble_dpi,/' ens.yaml
+expect 2 "there is no result 'ensemble_dpi'; did you mean 'ensemble_dip'" "$scree" report ens -s ens.yaml -o page.md
 finish ""
