@@ -24,6 +24,7 @@ typedef struct scree_measure_options {
     const char *at; ///< "start", "end", "#12", a snapshot, the name of a stage, "10 %" of axial strain; "mean:STAGE" or
                     ///< "mean:10", mean over its snapshots, or over the last ones
     const char *from;   ///< the same but for means: displacements and strains from there on
+    const char *fit;    ///< theories of piles that are fitted to the mean stresses, "ife,bcc,fpa,osl,wedge"
     const char *axis;   ///< "mass", "apex", or a place, "0 mm"
     long points;        ///< places along a cut
     int threads;        ///< for smooth fields

@@ -22,6 +22,7 @@ scree_status scree_verb_measure(const scree_command *command)
                                      .kernel = scree_command_value(command, "kernel"),
                                      .at = scree_command_value(command, "at"),
                                      .from = scree_command_value(command, "from"),
+                                     .fit = scree_command_value(command, "fit"),
                                      .axis = scree_command_value(command, "axis"),
                                      .output = scree_command_value(command, "output"),
                                      .no_figures = scree_command_has(command, "no-figures"),

@@ -422,6 +422,10 @@ static const scree_verb run_verbs[] = {
                     .meaning = "grains in an element at the mean density, or its side",
                     .preset = "150, a tenth of a sample below 1500"},
                    {.name = "points", .value = "N", .meaning = "places along a cut, odd", .preset = "41"},
+                   {.name = "fit",
+                    .value = "NAMES",
+                    .meaning = "theories fitted to the mean stresses of three piles or more, with commas: ife, bcc, "
+                               "fpa, osl, oriented, wedge"},
                    {.name = "axis",
                     .value = "mass|apex|X",
                     .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a place",

@@ -21,6 +21,8 @@ static void found_destroy(measure_found *found)
     measure_tables_destroy(&found->high);
     scree_release(&found->dip);
     scree_release(&found->strain_dip);
+    if (found->fits) scree_release(&found->fits->row);
+    scree_release(&found->fits);
 }
 
 static scree_status find_means(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
@@ -128,6 +130,17 @@ static void say_dips(const measure_plan *plan, const measure_found *found)
     if (found->runs == 1) measure_say(plan, "one run has no interval and no p: give the folders of several piles");
 }
 
+static void say_fits(const measure_plan *plan, const measure_fits *fits)
+{
+    for (size_t k = 0; fits && k < fits->numbers; k++) {
+        const measure_fit_number *n = &fits->number[k];
+        if (isnan(n->low))
+            measure_say(plan, "%-30s %-12.6g %s", n->name, n->value, n->unit);
+        else
+            measure_say(plan, "%-30s %-12.6g %-5s (%.6g to %.6g)", n->name, n->value, n->unit, n->low, n->high);
+    }
+}
+
 // ---- the whole ---------------------------------------------------------------------------------------------------
 
 static scree_status find_folder(const char *const *runs, size_t count, const measure_plan *plan, char *folder,
@@ -146,6 +159,7 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
     for (size_t k = 0; k < count && !status; k++) status = measure_run(runs[k], plan, &each[k], error);
     if (!status) status = find_means(each, count, found, error);
     if (!status) status = find_dips(each, count, plan, found, error);
+    if (!status && plan->fits > 0) status = measure_fit(each, count, plan, found, error);
     return status;
 }
 
@@ -171,6 +185,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     if (!status) {
         say_values(&plan, &found);
         say_dips(&plan, &found);
+        say_fits(&plan, found.fits);
         status = scree_folders_make(folder, error);
     }
     if (!status) status = measure_write(folder, &plan, &found, error);

@@ -6,6 +6,7 @@
 #include "average/dip.h"
 #include "average/kernel.h"
 #include "io/sample_file.h"
+#include "theory/fit.h"
 
 #include <scree/measure.h>
 
@@ -21,6 +22,34 @@ typedef enum measure_product {
     MEASURE_PRODUCTS
 } measure_product;
 
+enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 160, MEASURE_FIT_RUNS = 3 };
+
+/// Theories that are fitted to the mean cuts of plane piles, what comes of it, and closures (measure_fit.c).
+typedef struct measure_fit_number {
+    char name[64];
+    const char *unit;
+    bool sampled;            ///< it has an interval
+    double value, low, high; ///< of 95 %; NAN where it has none
+} measure_fit_number;
+
+typedef struct measure_fit_row {
+    size_t cut;
+    scree_fit_point point; ///< folded: x >= 0
+    scree_stress_2d theory[MEASURE_FITS];
+    bool fitted; ///< one of those that fits are made to
+} measure_fit_row;
+
+typedef struct measure_fits {
+    size_t count;
+    const char *theory[MEASURE_FITS];
+    bool solved[MEASURE_FITS];
+    size_t numbers;
+    measure_fit_number number[MEASURE_FIT_NUMBERS];
+    size_t rows;
+    measure_fit_row *row;
+    double slope; ///< rad
+} measure_fits;
+
 enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
 #define MEASURE_AT_REST 1e-2 /* what is not at rest has a larger unbalanced ratio */
 
@@ -33,6 +62,8 @@ typedef struct measure_plan {
     const char *at, *from;
     bool mean; ///< over all snapshots of the stage `at`
     int threads;
+    const char *fit[MEASURE_FITS]; ///< names of theories that are fitted
+    size_t fits;
     const char *network; ///< folder that the network of one run is drawn into; NULL: it is not
     const scree_measure_options *options;
 } measure_plan;
@@ -47,6 +78,7 @@ typedef struct measure_found {
     measure_tables mean, low, high;
     scree_average_dip *dip;        ///< a cut; NULL: no stress along cuts
     scree_average_dip *strain_dip; ///< the same of the vertical strain; NULL: no elastic constants
+    measure_fits *fits;            ///< NULL: none was asked for
     double dip_height;             ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;
 
@@ -61,6 +93,15 @@ void measure_tables_destroy(measure_tables *tables);
 scree_status measure_kernel(const scree_average_sample *before, const scree_average_sample *sample,
                             const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
                             scree_error *error);
+
+/// Fits the theories of the plan. Errors: SCREE_ERROR_INPUT with field --fit for fewer runs than MEASURE_FIT_RUNS,
+/// samples that are not plane piles, cuts without stress; memory.
+scree_status measure_fit(const measure_tables *each, size_t count, const measure_plan *plan, measure_found *found,
+                         scree_error *error);
+scree_status measure_fit_write(const char *folder, const measure_plan *plan, const measure_fits *fits,
+                               scree_error *error);
+scree_status measure_fit_draw(const char *folder, const measure_plan *plan, const measure_fits *fits,
+                              scree_error *error);
 
 /// Writes what was found into the folder. Errors: SCREE_ERROR_IO.
 scree_status measure_write(const char *folder, const measure_plan *plan, const measure_found *found,

@@ -355,5 +355,6 @@ scree_status measure_draw(const char *folder, const measure_plan *plan, const me
     if (!status) status = draw_distribution(folder, found, error);
     if (!status) status = draw_friction(folder, found, error);
     if (!status) status = draw_rose(folder, found, error);
+    if (!status && found->fits) status = measure_fit_draw(folder, plan, found->fits, error);
     return status ? status : measure_draw_clouds(folder, plan, found, error);
 }

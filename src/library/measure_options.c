@@ -72,6 +72,29 @@ static scree_status read_cuts(const char *text, scree_average_plan *plan, scree_
     return plan->cuts > 0 ? SCREE_OK : refuse(error, "cuts", accepted, "no cut is named");
 }
 
+/// Names of theories; `wedge` are all four of them.
+static scree_status read_fits(const char *text, measure_plan *plan, scree_error *error)
+{
+    const char *accepted = "ife, bcc, fpa, osl, oriented, wedge, wedge_dip, wedge_smooth, wedge_peak, wedge_core";
+    for (const char *at = text; *at;) {
+        const size_t length = strcspn(at, ",");
+        const bool wedges = length == 5 && strncmp(at, "wedge", 5) == 0;
+        const size_t before = plan->fits;
+        const char *name;
+        for (size_t k = 0; (name = scree_fit_theory_name(k)); k++) {
+            const bool pile = strcmp(name, "flamant") != 0 && strncmp(name, "layer", 5) != 0;
+            const bool meant =
+                wedges ? strncmp(name, "wedge_", 6) == 0 : strlen(name) == length && strncmp(name, at, length) == 0;
+            if (pile && meant && plan->fits < MEASURE_FITS) plan->fit[plan->fits++] = name;
+        }
+        if (plan->fits == before)
+            return refuse(error, "fit", accepted, "there is no theory of piles '%.*s'", (int)length, at);
+        at += length;
+        at += *at == ',';
+    }
+    return plan->fits > 0 ? SCREE_OK : refuse(error, "fit", accepted, "no theory is named");
+}
+
 static scree_status read_element(const char *text, scree_average_plan *plan, scree_error *error)
 {
     const char *accepted = "a number of grains, such as 150, or a length, such as 30 mm";
@@ -142,6 +165,7 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
     if (!status && options->element) status = read_element(options->element, &plan->average, error);
     if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);
     if (!status && options->kernel) status = read_kernel(options->kernel, plan, error);
+    if (!status && options->fit) status = read_fits(options->fit, plan, error);
     if (!status) status = read_axis(options->axis ? options->axis : "mass", &plan->average, error);
     return status;
 }

@@ -80,6 +80,24 @@ static scree_status find_mark(const char *directory, const char *option, const c
 
 // ---- tables ------------------------------------------------------------------------------------------------------
 
+/// The triangle that a plane pile is to theories: its area, and its height three times that of the centre of mass.
+static void tell_triangle(const scree_average_view *view, scree_average_table *values)
+{
+    const scree_average_sample *sample = view->sample;
+    double mass = 0, moment = 0;
+    for (size_t p = 0; p < sample->bodies; p++) {
+        const scree_average_grain *grain = &sample->grain[p];
+        if (!grain->counted) continue;
+        mass += grain->mass;
+        moment += grain->mass * (grain->position[1] - view->frame.base);
+    }
+    const bool plane = sample->dimension == 2 && view->weight > 0 && moment > 0;
+    const double height = plane ? 3 * moment / mass : NAN, area = view->surface.volume;
+    scree_average_table_take(values, "triangle_height", "m", height);
+    scree_average_table_take(values, "triangle_slope", "degree", atan(height * height / area) * 180 / M_PI);
+    scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
+}
+
 /// Mean coordination and the like, of the whole sample.
 static void tell_whole(const scree_average_view *view, scree_average_table *values)
 {
@@ -99,6 +117,7 @@ static void tell_whole(const scree_average_view *view, scree_average_table *valu
     scree_average_table_take(values, "height", "m", view->frame.height);
     scree_average_table_take(values, "half_width", "m", view->frame.half);
     scree_average_table_take(values, "axis", "m", view->frame.axis);
+    tell_triangle(view, values);
     scree_average_table_take(values, "weight", "N", view->weight);
     scree_average_table_take(values, "outside_force", "N", view->plate);
     scree_average_table_take(values, "outside_force_ratio", "1", view->weight > 0 ? view->plate / view->weight : NAN);

@@ -125,6 +125,13 @@ static void set_values(scree_summary *summary, const measure_found *found)
         (void)snprintf(name, sizeof name, "%s_high", mean->column[k].name);
         scree_summary_set_number(summary, name, found->high.of[MEASURE_VALUES].value[k]);
     }
+    for (size_t k = 0; found->fits && k < found->fits->numbers; k++) {
+        const measure_fit_number *n = &found->fits->number[k];
+        set_part(summary, n->name, "", n->value);
+        if (isnan(n->low)) continue;
+        set_part(summary, n->name, "_low", n->low);
+        set_part(summary, n->name, "_high", n->high);
+    }
     // One sample has that of strains among its values.
     set_dip(summary, "strain_dip", found->strain_dip, found->runs > 1);
     set_dip(summary, "dip", found->dip, true);
@@ -151,5 +158,6 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
     for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) status = write_table(folder, found, k, error);
     if (!status) status = write_dips(folder, "dips.csv", plan, found->dip, error);
     if (!status) status = write_dips(folder, "strain-dips.csv", plan, found->strain_dip, error);
+    if (!status && found->fits) status = measure_fit_write(folder, plan, found->fits, error);
     return status ? status : write_summary(folder, found, error);
 }

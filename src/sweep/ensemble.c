@@ -28,6 +28,7 @@ scree_measure_options scree_ensemble_options(const scree_sweep_ensemble *ensembl
                                    .at = said(ensemble->at),
                                    .from = said(ensemble->from),
                                    .axis = said(ensemble->axis),
+                                   .fit = said(ensemble->fit),
                                    .points = (long)ensemble->points,
                                    .threads = 1};
 }

@@ -91,6 +91,7 @@ static const scree_key ensemble_keys[] = {
     OPTION(kernel, .meaning = "Width of smooth fields."),
     OPTION(at, .meaning = "Snapshot, or mean over those of a stage."),
     OPTION(from, .meaning = "Snapshot that displacements and strains begin at."),
+    OPTION(fit, .meaning = "Theories of piles that are fitted to the mean stresses."),
     OPTION(axis, .meaning = "Axis of the pile: mass, apex, or a place."),
     KEY(ensemble, points, SCREE_KEY_INTEGER, .standard = "0", FROM("0"), TO("10001"),
         .meaning = "Places along a cut; 0: as many as `scree measure` takes."),

@@ -52,7 +52,7 @@ typedef struct scree_sweep_bisect {
 /// Averages over the members of a point, as `scree measure` makes them of several runs (ensemble.h). Texts are its
 /// options; "": as there without the option.
 typedef struct scree_sweep_ensemble {
-    char *fields, *cuts, *element, *grid, *kernel, *at, *from, *axis;
+    char *fields, *cuts, *element, *grid, *kernel, *at, *from, *axis, *fit;
     int64_t points; ///< 0: as there
 } scree_sweep_ensemble;
 

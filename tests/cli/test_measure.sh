@@ -88,4 +88,18 @@ expect 0 '' "$scree" report averaged -s statements.yaml -o page.md
 grep -qE '^\| plate .*\| 2 of 2 \| \*\*agrees\*\*' page.md || complain "report of an ensemble: $(grep '^| plate' page.md)"
 grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/averaged-all-full.png ] || complain "no figure in the report"
 
+# Theories are fitted to three piles or more: BCC is the smooth wedge, and OSL the wedge with a free core.
+expect 2 "three piles or more" "$scree" measure pile1 pile2 --fit bcc --no-figures -o none
+expect 2 "no theory of piles 'bbc'" "$scree" measure pile1 pile2 --fit osl,bbc --no-figures -o none
+expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=3 --threads 1 --quiet -o pile3
+expect 0 'fit_osl_eta' "$scree" measure pile1 pile2 pile3 --fit bcc,osl,wedge -o fit
+for file in fits.csv fit-points.csv fits-vertical.png mohr-coulomb.png; do
+    checks=$((checks + 1))
+    [ -s "fit/$file" ] || complain "there is no fit/$file"
+done
+checks=$((checks + 1))
+awk -v a="$("$scree" get fit fit_bcc_chi_square)" -v b="$("$scree" get fit fit_wedge_smooth_chi_square)" \
+    -v c="$("$scree" get fit fit_osl_chi_square)" -v d="$("$scree" get fit fit_wedge_core_chi_square)" \
+    'BEGIN { exit !(a > 0 && (a / b - 1) ^ 2 < 1e-12 && (c / d - 1) ^ 2 < 1e-8 && c < a) }' || complain "theories that are one and the same fit differently"
+
 finish

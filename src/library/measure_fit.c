@@ -1,0 +1,482 @@
+/// Theories of piles fitted to the mean stresses of an ensemble of plane piles, and closures.
+///
+/// Of each pile the mean of both sides is taken (a pile and its mirror image are one sample), in the frame of the
+/// theories: x from the axis, y down from the tip of the triangle of the same area and centre of mass, compression
+/// positive. Fits take elements that lie within the piles and do not overlap; their errors are standard errors of the
+/// mean over the piles, as the root of the mean square along a cut, since that of one place of few piles is noise.
+/// Slope and tip are held; the weight is free, so that its ratio to the measured one is a check. Intervals of the
+/// parameters are those of the jackknife over whole piles (J. W. Tukey, Ann. Math. Statist. 29, 614, 1958) with
+/// Student's t: each pile is left out once, with its place in slope and height. They do not rest on the independence of
+/// elements, on which chi^2, its probability and AIC do.
+///
+/// mohr_coulomb: ((xx - yy)^2 + 4 xy^2) / ((xx + yy)^2 sin^2 slope) - 1 (R 4.2): 0 where the pile yields, below where
+/// it does not. The axis is what lies within AXIS of the half width, the flank between FLANK and FLANK_END.
+#include "library/measure.h"
+
+#include "io/run_directory.h"
+#include "view/chart.h"
+
+#include <gsl/gsl_cdf.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define WHOLE     0.99 /* part of an element that has to lie in the piles */
+#define AXIS      0.1
+#define FLANK     0.5
+#define FLANK_END 0.8
+#define DEGREE    (M_PI / 180)
+
+enum { COMPONENTS = 3, CHART_LINES = 7 };
+
+/// What the search of one set of piles sees.
+typedef struct piles {
+    const measure_tables *each;
+    size_t count, without; ///< number of piles; the one that is left out, SIZE_MAX: none
+    const measure_plan *plan;
+    const measure_found *found;
+    size_t column[COMPONENTS], x, y, inside;
+} piles;
+
+static scree_status refuse(scree_error *error, const char *message)
+{
+    (void)scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
+    if (error) (void)snprintf(error->field, sizeof error->field, "--fit");
+    return SCREE_ERROR_INPUT;
+}
+
+// ---- points ------------------------------------------------------------------------------------------------------
+
+/// Mean of a value over the piles.
+static double mean_value(const piles *p, const char *name)
+{
+    double sum = 0, number = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const scree_average_table *values = &p->each[i].of[MEASURE_VALUES];
+        if (i == p->without) continue;
+        sum += values->value[scree_average_table_find(values, name)];
+        number++;
+    }
+    return sum / number;
+}
+
+/// Component of pile i at place j of a cut, mean of both sides, in the frame of the theories.
+static double folded(const piles *p, size_t i, size_t cut, size_t j, int component)
+{
+    const size_t points = p->plan->average.points, middle = cut * points + points / 2;
+    const scree_average_table *cuts = &p->each[i].of[MEASURE_CUTS];
+    const double right = scree_average_table_get(cuts, middle + j, p->column[component]);
+    const double left = scree_average_table_get(cuts, middle - j, p->column[component]);
+    return component < 2 ? -0.5 * (right + left) : 0.5 * (right - left);
+}
+
+/// Mean and standard error of the mean.
+static double mean_folded(const piles *p, size_t cut, size_t j, int component, double *error)
+{
+    double sum = 0, squares = 0, number = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const double value = folded(p, i, cut, j, component);
+        if (i == p->without) continue;
+        sum += value;
+        squares += value * value;
+        number++;
+    }
+    const double mean = sum / number;
+    *error = sqrt(fmax(0, squares / number - mean * mean) / (number - 1));
+    return mean;
+}
+
+static double *component_of(scree_stress_2d *stress, int component)
+{
+    return component == 0 ? &stress->xx : component == 1 ? &stress->yy : &stress->xy;
+}
+
+/// Errors along the rows of a cut become their root mean square.
+static void pool(measure_fit_row *row, size_t count)
+{
+    for (int c = 0; c < COMPONENTS && count > 0; c++) {
+        double squares = 0;
+        for (size_t k = 0; k < count; k++) squares += pow(*component_of(&row[k].point.error, c), 2);
+        for (size_t k = 0; k < count; k++) *component_of(&row[k].point.error, c) = sqrt(squares / (double)count);
+    }
+}
+
+/// The places of all cuts that lie within the piles; those that do not overlap are to be fitted.
+static size_t lay_out(const piles *p, measure_fit_row *row)
+{
+    const scree_average_table *mean = &p->found->mean.of[MEASURE_CUTS];
+    const size_t points = p->plan->average.points;
+    const double side = mean_value(p, "element_side"), tip = mean_value(p, "triangle_height");
+    size_t count = 0;
+    double last_y = -INFINITY;
+    for (size_t cut = 0; cut < p->plan->average.cuts; cut++) {
+        const size_t middle = cut * points + points / 2, first = count;
+        const double y = scree_average_table_get(mean, middle, p->y);
+        const bool apart = y - last_y >= 0.999 * side;
+        double last_x = -INFINITY;
+        for (size_t j = 0; j <= points / 2; j++) {
+            const double x =
+                scree_average_table_get(mean, middle + j, p->x) - scree_average_table_get(mean, middle, p->x);
+            measure_fit_row *r = &row[count];
+            if (scree_average_table_get(mean, middle + j, p->inside) < WHOLE ||
+                scree_average_table_get(mean, middle - j, p->inside) < WHOLE)
+                continue;
+            *r = (measure_fit_row){.cut = cut, .point = {.x = x, .y = tip - y}};
+            for (int c = 0; c < COMPONENTS; c++)
+                *component_of(&r->point.stress, c) = mean_folded(p, cut, j, c, component_of(&r->point.error, c));
+            r->fitted = apart && x - last_x >= 0.999 * side;
+            if (r->fitted) last_x = x;
+            count++;
+        }
+        if (apart && count > first) last_y = y;
+        pool(row + first, count - first);
+    }
+    return count;
+}
+
+// ---- fits --------------------------------------------------------------------------------------------------------
+
+/// Where searches begin.
+static const double eta_begins[] = {0.5, 0.74, 0.95}, core_begins[] = {0.45, 0.62, 0.8};
+
+static scree_status begin_fit(const char *theory, double slope, double weight, int attempt, scree_fit *fit,
+                              scree_error *error)
+{
+    scree_status status = scree_fit_begin(theory, fit, error);
+    if (!status) status = scree_fit_set(fit, "weight", weight, true, error);
+    if (!status && scree_fit_find(fit, "slope")) status = scree_fit_set(fit, "slope", slope, false, error);
+    if (!status && scree_fit_find(fit, "slope_left")) status = scree_fit_set(fit, "slope_left", slope, false, error);
+    if (!status && scree_fit_find(fit, "slope_right")) status = scree_fit_set(fit, "slope_right", slope, false, error);
+    if (!status && scree_fit_find(fit, "eta")) status = scree_fit_set(fit, "eta", eta_begins[attempt], true, error);
+    if (!status && scree_fit_find(fit, "core")) status = scree_fit_set(fit, "core", core_begins[attempt], true, error);
+    return status;
+}
+
+/// The best of several beginnings; false: it has no solution from any of them.
+static bool solve(const char *theory, double slope, double weight, size_t count, const scree_fit_point *points,
+                  scree_fit *best)
+{
+    bool found = false;
+    for (int attempt = 0; attempt < 3; attempt++) {
+        scree_fit fit;
+        scree_error ignored = {0};
+        if (begin_fit(theory, slope, weight, attempt, &fit, &ignored)) continue;
+        if (scree_fit_solve(&fit, count, points, &ignored)) continue;
+        if (!found || fit.chi_square < best->chi_square) *best = fit;
+        found = true;
+        if (!scree_fit_find(&fit, "eta") && !scree_fit_find(&fit, "core")) break;
+    }
+    return found;
+}
+
+static void tell(measure_fits *fits, const char *first, const char *second, const char *unit, bool sampled,
+                 double value)
+{
+    measure_fit_number *n = &fits->number[fits->numbers];
+    if (fits->numbers == MEASURE_FIT_NUMBERS) return;
+    (void)snprintf(n->name, sizeof n->name, "%s%s%s", first, second[0] ? "_" : "", second);
+    n->unit = unit;
+    n->sampled = sampled;
+    n->value = value;
+    n->low = n->high = NAN;
+    fits->numbers++;
+}
+
+/// Distance of the theory from the measured stresses over these, roots of mean squares.
+static double misfit_of(const measure_fit_row *row, size_t rows, size_t theory)
+{
+    double distance = 0, size = 0;
+    for (size_t k = 0; k < rows; k++) {
+        const scree_stress_2d *a = &row[k].point.stress, *b = &row[k].theory[theory];
+        if (!row[k].fitted) continue;
+        distance += pow(a->xx - b->xx, 2) + pow(a->yy - b->yy, 2) + 2 * pow(a->xy - b->xy, 2);
+        size += a->xx * a->xx + a->yy * a->yy + 2 * a->xy * a->xy;
+    }
+    return sqrt(distance / size);
+}
+
+/// Tells a fit; what was not solved tells the same names without numbers.
+static void tell_fit(measure_fits *fits, size_t k, const scree_fit *fit, bool solved, double weight)
+{
+    char name[40];
+    (void)snprintf(name, sizeof name, "fit_%s", fits->theory[k]);
+    for (size_t i = 0; i < fit->parameters; i++) {
+        const scree_fit_parameter *p = &fit->parameter[i];
+        const bool angle = strcmp(p->unit, "rad") == 0, is_weight = strcmp(p->name, "weight") == 0;
+        if (!p->free) continue;
+        const double value = is_weight ? p->value / weight : angle ? p->value / DEGREE : p->value;
+        tell(fits, name, is_weight ? "weight_ratio" : p->name, angle ? "degree" : "1", true, solved ? value : NAN);
+    }
+    tell(fits, name, "misfit", "1", true, solved ? misfit_of(fits->row, fits->rows, k) : NAN);
+    tell(fits, name, "chi_square", "1", false, solved ? fit->chi_square : NAN);
+    tell(fits, name, "reduced", "1", false, solved ? fit->reduced : NAN);
+    tell(fits, name, "probability", "1", false, solved ? fit->probability : NAN);
+    tell(fits, name, "information", "1", false, solved ? fit->information : NAN);
+}
+
+static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *error)
+{
+    const double slope = mean_value(p, "triangle_slope") * DEGREE, weight = mean_value(p, "weight_density");
+    scree_fit_point *fitted = NULL, *all = NULL;
+    scree_stress_2d *stress = NULL;
+    size_t count = 0;
+    scree_status status = scree_allocate(&fitted, fits->rows, sizeof *fitted, error);
+    if (!status) status = scree_allocate(&all, fits->rows, sizeof *all, error);
+    if (!status) status = scree_allocate(&stress, fits->rows, sizeof *stress, error);
+    fits->slope = slope;
+    for (size_t k = 0; k < fits->rows && !status; k++) {
+        all[k] = fits->row[k].point;
+        if (fits->row[k].fitted) fitted[count++] = all[k];
+    }
+    for (size_t k = 0; k < fits->count && !status; k++) {
+        scree_fit fit;
+        scree_error ignored = {0};
+        bool solved = solve(fits->theory[k], slope, weight, count, fitted, &fit);
+        if (solved) solved = scree_fit_stress(&fit, fits->rows, all, stress, &ignored) == SCREE_OK;
+        if (!solved) status = scree_fit_begin(fits->theory[k], &fit, error);
+        for (size_t i = 0; i < fits->rows && solved; i++) fits->row[i].theory[k] = stress[i];
+        fits->solved[k] = solved;
+        if (!status) tell_fit(fits, k, &fit, solved, weight);
+    }
+    scree_release(&fitted);
+    scree_release(&all);
+    scree_release(&stress);
+    return status;
+}
+
+// ---- closures ----------------------------------------------------------------------------------------------------
+
+static double mohr_coulomb(const scree_stress_2d *s, double slope)
+{
+    return (pow(s->xx - s->yy, 2) + 4 * s->xy * s->xy) / pow((s->xx + s->yy) * sin(slope), 2) - 1;
+}
+
+/// Means over the lowest cut between two distances from the axis, over the half width of the triangle.
+static void tell_closure(measure_fits *fits, const char *where, double from, double to, double half)
+{
+    double yielding = 0, ratio = 0, number = 0;
+    for (size_t k = 0; k < fits->rows; k++) {
+        const measure_fit_row *r = &fits->row[k];
+        const double place = r->point.x / half;
+        if (r->cut != 0 || place < from || place > to) continue;
+        yielding += mohr_coulomb(&r->point.stress, fits->slope);
+        ratio += r->point.stress.xx / r->point.stress.yy;
+        number++;
+    }
+    tell(fits, "mohr_coulomb", where, "1", true, yielding / number);
+    tell(fits, "stress_ratio", where, "1", true, ratio / number);
+}
+
+// ---- the whole ---------------------------------------------------------------------------------------------------
+
+/// All numbers of a set of piles. fits: with names and room for rows.
+static scree_status find_numbers(measure_fits *fits, const piles *p, scree_error *error)
+{
+    fits->numbers = 0;
+    fits->rows = lay_out(p, fits->row);
+    size_t fitted = 0;
+    for (size_t k = 0; k < fits->rows; k++) fitted += fits->row[k].fitted;
+    if (fitted < 2)
+        return refuse(error, "the piles are too small for their elements: fewer than two lie within them side by side "
+                             "(--element)");
+    scree_status status = fit_all(fits, p, error);
+    const double half = mean_value(p, "triangle_height") / tan(fits->slope);
+    tell_closure(fits, "axis", 0, AXIS, half);
+    tell_closure(fits, "flank", FLANK, FLANK_END, half);
+    return status;
+}
+
+/// Intervals from leaving out each pile once.
+static scree_status jackknife(measure_fits *fits, piles *p, scree_error *error)
+{
+    const double n = (double)p->count;
+    double sum[MEASURE_FIT_NUMBERS] = {0}, squares[MEASURE_FIT_NUMBERS] = {0};
+    measure_fits *without = NULL;
+    scree_status status = scree_allocate(&without, 1, sizeof *without, error);
+    if (!status) *without = *fits;
+    if (!status)
+        status =
+            scree_allocate(&without->row, p->plan->average.cuts * p->plan->average.points, sizeof *without->row, error);
+    for (p->without = 0; p->without < p->count && !status; p->without++) {
+        status = find_numbers(without, p, error);
+        for (size_t k = 0; k < fits->numbers && !status; k++) {
+            // Sums of what differs from the whole: no digits are lost.
+            const double change = without->number[k].value - fits->number[k].value;
+            sum[k] += change;
+            squares[k] += change * change;
+        }
+    }
+    for (size_t k = 0; k < fits->numbers && !status; k++) {
+        measure_fit_number *number = &fits->number[k];
+        const double error_of = sqrt((n - 1) / n * fmax(0, squares[k] - sum[k] * sum[k] / n));
+        const double half = gsl_cdf_tdist_Pinv(0.975, n - 1) * error_of;
+        if (!number->sampled) continue;
+        number->low = number->value - half;
+        number->high = number->value + half;
+    }
+    if (without) scree_release(&without->row);
+    scree_release(&without);
+    return status;
+}
+
+scree_status measure_fit(const measure_tables *each, size_t count, const measure_plan *plan, measure_found *found,
+                         scree_error *error)
+{
+    const scree_average_table *cuts = &each[0].of[MEASURE_CUTS], *values = &found->mean.of[MEASURE_VALUES];
+    const size_t height = scree_average_table_find(values, "triangle_height");
+    piles p = {.each = each, .count = count, .without = SIZE_MAX, .plan = plan, .found = found};
+    static const char *const names[COMPONENTS] = {"stress_xx", "stress_yy", "stress_xy"};
+    if (count < MEASURE_FIT_RUNS)
+        return refuse(error, "theories are fitted to the mean of three piles or more: their scatter is the error");
+    for (int c = 0; c < COMPONENTS; c++) p.column[c] = scree_average_table_find(cuts, names[c]);
+    p.x = scree_average_table_find(cuts, "x");
+    p.y = scree_average_table_find(cuts, "y");
+    p.inside = scree_average_table_find(cuts, "inside");
+    if (p.column[0] == SIZE_MAX || p.y == SIZE_MAX || p.inside == SIZE_MAX)
+        return refuse(error, "fits need stresses along cuts (--fields stress) of a plane sample");
+    if (height == SIZE_MAX || !(values->value[height] > 0))
+        return refuse(error, "fits are of plane piles under gravity");
+    scree_status status = scree_allocate(&found->fits, 1, sizeof *found->fits, error);
+    if (status) return status;
+    found->fits->count = plan->fits;
+    for (size_t k = 0; k < plan->fits; k++) found->fits->theory[k] = plan->fit[k];
+    status =
+        scree_allocate(&found->fits->row, plan->average.cuts * plan->average.points, sizeof *found->fits->row, error);
+    if (!status) status = find_numbers(found->fits, &p, error);
+    return status ? status : jackknife(found->fits, &p, error);
+}
+
+// ---- files -------------------------------------------------------------------------------------------------------
+
+static void put_rows(FILE *file, const measure_plan *plan, const measure_fits *fits)
+{
+    fputs("height [1],x [m],y [m],fitted,mohr_coulomb [1],stress_xx [Pa],stress_yy [Pa],stress_xy [Pa],error_xx [Pa],"
+          "error_yy [Pa],error_xy [Pa]",
+          file);
+    for (size_t k = 0; k < fits->count; k++)
+        fprintf(file, ",%s_xx [Pa],%s_yy [Pa],%s_xy [Pa]", fits->theory[k], fits->theory[k], fits->theory[k]);
+    fputc('\n', file);
+    for (size_t i = 0; i < fits->rows; i++) {
+        const measure_fit_row *r = &fits->row[i];
+        const scree_stress_2d *s = &r->point.stress, *e = &r->point.error;
+        fprintf(file, "%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", plan->average.height[r->cut], r->point.x,
+                r->point.y, r->fitted, mohr_coulomb(s, fits->slope), s->xx, s->yy, s->xy, e->xx, e->yy, e->xy);
+        for (size_t k = 0; k < fits->count; k++) {
+            const scree_stress_2d *t = &r->theory[k];
+            const double none = fits->solved[k] ? 1 : NAN;
+            fprintf(file, ",%.9g,%.9g,%.9g", none * t->xx, none * t->yy, none * t->xy);
+        }
+        fputc('\n', file);
+    }
+}
+
+scree_status measure_fit_write(const char *folder, const measure_plan *plan, const measure_fits *fits,
+                               scree_error *error)
+{
+    char path[PATH_MAX];
+    FILE *file;
+    scree_status status = scree_path_join(path, sizeof path, folder, "fits.csv", error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    fputs("name,unit,value,low,high\n", file);
+    for (size_t k = 0; k < fits->numbers; k++) {
+        const measure_fit_number *n = &fits->number[k];
+        fprintf(file, "%s,%s,%.9g,%.9g,%.9g\n", n->name, n->unit, n->value, n->low, n->high);
+    }
+    status = scree_replace_finish(path, file, true, error);
+    if (!status) status = scree_path_join(path, sizeof path, folder, "fit-points.csv", error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    put_rows(file, plan, fits);
+    return scree_replace_finish(path, file, true, error);
+}
+
+// ---- figures -----------------------------------------------------------------------------------------------------
+
+/// A component of the lowest cut with the theories.
+static scree_status draw_component(const char *folder, const char *file, const char *label, int component,
+                                   const measure_fits *fits, scree_error *error)
+{
+    char path[PATH_MAX], name[CHART_LINES][32];
+    double *number = NULL;
+    size_t n = 0, lines = 1;
+    while (n < fits->rows && fits->row[n].cut == 0) n++;
+    scree_chart_line line[CHART_LINES] = {{0}};
+    scree_status status = scree_path_join(path, sizeof path, folder, file, error);
+    if (!status) status = scree_allocate(&number, (4 + fits->count) * (n + 1), sizeof *number, error);
+    if (status) return status;
+    double *x = number, *y = x + n, *low = y + n, *high = low + n;
+    for (size_t i = 0; i < n; i++) {
+        measure_fit_row r = fits->row[i];
+        const double half = *component_of(&r.point.error, component);
+        x[i] = 1e3 * r.point.x;
+        y[i] = 1e-3 * *component_of(&r.point.stress, component);
+        low[i] = y[i] - 1e-3 * half;
+        high[i] = y[i] + 1e-3 * half;
+    }
+    line[0] = (scree_chart_line){x, y, low, high, n, .label = "piles, standard error", .points = true, .bare = true};
+    for (size_t k = 0; k < fits->count && lines < CHART_LINES; k++) {
+        double *theory = high + (k + 1) * n;
+        if (!fits->solved[k]) continue;
+        for (size_t i = 0; i < n; i++) {
+            measure_fit_row r = fits->row[i];
+            theory[i] = 1e-3 * *component_of(&r.theory[k], component);
+        }
+        // An underscore would begin a subscript.
+        (void)snprintf(name[lines], sizeof name[lines], "%s", fits->theory[k]);
+        for (char *c = name[lines]; *c; c++) *c = *c == '_' ? ' ' : *c;
+        line[lines] = (scree_chart_line){x, theory, .count = n, .label = name[lines]};
+        lines++;
+    }
+    const scree_chart chart = {.title = "Lowest cut and the fitted theories",
+                               .x_label = "distance from the axis (mm)",
+                               .y_label = label,
+                               .line = line,
+                               .line_count = lines};
+    status = scree_chart_draw(path, &chart, error);
+    scree_release(&number);
+    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
+}
+
+static scree_status draw_yielding(const char *folder, const measure_plan *plan, const measure_fits *fits,
+                                  scree_error *error)
+{
+    char path[PATH_MAX], label[CHART_LINES][32];
+    double *number = NULL;
+    size_t lines = 0;
+    scree_chart_line line[CHART_LINES] = {{0}};
+    scree_status status = scree_path_join(path, sizeof path, folder, "mohr-coulomb", error);
+    if (!status) status = scree_allocate(&number, 2 * fits->rows, sizeof *number, error);
+    if (status) return status;
+    for (size_t i = 0; i < fits->rows; i++) {
+        const measure_fit_row *r = &fits->row[i];
+        number[i] = 1e3 * r->point.x;
+        number[fits->rows + i] = mohr_coulomb(&r->point.stress, fits->slope);
+        const bool first = i == 0 || fits->row[i - 1].cut != r->cut;
+        if (first && lines == CHART_LINES) break;
+        if (first) {
+            (void)snprintf(label[lines], sizeof label[lines], "height %.2g", plan->average.height[r->cut]);
+            line[lines] = (scree_chart_line){.x = number + i, .y = number + fits->rows + i, .label = label[lines]};
+            lines++;
+        }
+        line[lines - 1].count++;
+    }
+    const scree_chart chart = {.title = "Mohr-Coulomb expression by height: 0 where the pile yields",
+                               .x_label = "distance from the axis (mm)",
+                               .y_label = "((xx - yy)^2 + 4 xy^2) / ((xx + yy)^2 sin^2 slope) - 1",
+                               .line = line,
+                               .line_count = lines};
+    status = scree_chart_draw(path, &chart, error);
+    scree_release(&number);
+    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
+}
+
+scree_status measure_fit_draw(const char *folder, const measure_plan *plan, const measure_fits *fits,
+                              scree_error *error)
+{
+    scree_status status = draw_component(folder, "fits-vertical", "vertical pressure (kPa)", 1, fits, error);
+    if (!status) status = draw_component(folder, "fits-horizontal", "horizontal pressure (kPa)", 0, fits, error);
+    if (!status) status = draw_component(folder, "fits-shear", "shear stress (kPa)", 2, fits, error);
+    return status ? status : draw_yielding(folder, plan, fits, error);
+}
