@@ -12,7 +12,7 @@
 #define SCREE_SWEEP_ENSEMBLE_H
 
 #include "sweep/findings.h"
-#include "sweep/results.h"
+#include "sweep/sweep.h"
 
 #define SCREE_ENSEMBLE_PREFIX "ensemble_"
 
@@ -24,14 +24,6 @@ typedef struct scree_ensemble_value {
 
 /// The options of `scree measure` that a sweep says; without output or message.
 scree_measure_options scree_ensemble_options(const scree_sweep_ensemble *ensemble);
-
-/// Folder of the averages over a point of the sweep in `directory`.
-scree_status scree_ensemble_folder(char *path, size_t size, const char *directory, const char *point,
-                                   scree_error *error) SCREE_MUST_USE;
-
-/// Measures every point that has finished members, where the sweep asks for it. What cannot be measured is told, and
-/// leaves the others alone. Errors: SCREE_ERROR_IO; memory.
-scree_status scree_ensembles_measure(const scree_sweep_results *results, scree_error *error) SCREE_MUST_USE;
 
 /// Number of runs that the averages in a folder are over; 0: there are none.
 size_t scree_ensemble_runs(const char *folder);

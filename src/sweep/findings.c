@@ -1,7 +1,6 @@
 /// Finding runs: by summary.json (a run) and sweep.json (a sweep, which lists its members). Whether a member is done is
 /// what its own summary.json says: sweep.json may be older.
 #include "sweep/findings.h"
-#include "sweep/ensemble.h"
 
 #include "base/memory.h"
 #include "io/run_directory.h"
@@ -99,6 +98,14 @@ static scree_status add_run(scree_findings *findings, const char *directory, scr
     (void)snprintf(finding.directory, sizeof finding.directory, "%s", directory);
     bool there = read_summary(&finding) && finding.name[0] && finding.state != SCREE_FINDING_MISSING;
     return there ? add(findings, &finding, error) : SCREE_OK;
+}
+
+scree_status scree_ensemble_folder(char *path, size_t size, const char *directory, const char *point,
+                                   scree_error *error)
+{
+    char name[220];
+    (void)snprintf(name, sizeof name, "ensemble/%s", point[0] ? point : "all");
+    return scree_path_join(path, size, directory, name, error);
 }
 
 static scree_status add_member(scree_findings *findings, const char *directory, json_t *sweep, json_t *member,

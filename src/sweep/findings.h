@@ -42,6 +42,10 @@ typedef struct scree_findings {
 scree_status scree_findings_add(scree_findings *findings, const char *directory, scree_error *error) SCREE_MUST_USE;
 void scree_findings_destroy(scree_findings *findings);
 
+/// Folder of the averages over a point of the sweep in `directory`.
+scree_status scree_ensemble_folder(char *path, size_t size, const char *directory, const char *point,
+                                   scree_error *error) SCREE_MUST_USE;
+
 /// Whether any run of that name and form was found.
 bool scree_findings_have(const scree_findings *findings, const char *name, scree_finding_form form);
 

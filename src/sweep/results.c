@@ -1,6 +1,5 @@
 /// Reading what the members left behind, and collecting it into tables, curves and figures.
 #include "sweep/results.h"
-#include "sweep/ensemble.h"
 
 #include "base/memory.h"
 #include "io/run_directory.h"

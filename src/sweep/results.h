@@ -22,6 +22,10 @@ scree_status scree_sweep_results_read(scree_sweep_results *results, const scree_
                                       const scree_sweep_options *options, scree_error *error) SCREE_MUST_USE;
 void scree_sweep_results_destroy(scree_sweep_results *results);
 
+/// Measures every point that has finished members, where the sweep asks for it. What cannot be measured is told, and
+/// leaves the others alone. Errors: SCREE_ERROR_IO; memory.
+scree_status scree_ensembles_measure(const scree_sweep_results *results, scree_error *error) SCREE_MUST_USE;
+
 /// members.csv: one row a member; table.csv: one row a point; sweep.json: what the sweep is, for other programs.
 scree_status scree_sweep_write_tables(const scree_sweep_results *results, scree_error *error) SCREE_MUST_USE;
 scree_status scree_sweep_write_record(const scree_sweep_results *results, scree_error *error) SCREE_MUST_USE;

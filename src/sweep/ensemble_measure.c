@@ -1,0 +1,70 @@
+/// Making the averages over the members of each point: scree_measure of their folders.
+#include "sweep/ensemble.h"
+#include "sweep/results.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/// What may be wrong with averages is told; their numbers are in the files.
+static void pass_warning(void *user, const char *line)
+{
+    const scree_sweep_results *results = user;
+    static const char mark[] = "warning: ";
+    if (strncmp(line, mark, sizeof mark - 1) == 0)
+        scree_sweep_tell(results->options, 1, "ensemble: %s", line + sizeof mark - 1);
+}
+
+/// Folders of the finished members of a point, in the order of seeds; each is to be released.
+static scree_status list_members(const scree_sweep_results *results, size_t point, char **folder, size_t *count,
+                                 scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    *count = 0;
+    for (size_t i = point; i < results->sweep->member_count && !status; i += results->sweep->point_count) {
+        scree_member_paths paths;
+        if (results->state[i] != SCREE_MEMBER_DONE) continue;
+        status = scree_member_find(results->sweep, i, results->options->output, &paths, error);
+        if (!status) status = scree_allocate(&folder[*count], strlen(paths.folder) + 1, 1, error);
+        if (!status) memcpy(folder[(*count)++], paths.folder, strlen(paths.folder) + 1);
+    }
+    return status;
+}
+
+static scree_status measure_point(const scree_sweep_results *results, size_t point, char **folder, scree_error *error)
+{
+    const scree_sweep *sweep = results->sweep;
+    scree_measure_options options = scree_ensemble_options(&sweep->config.ensemble);
+    char output[PATH_MAX];
+    size_t count;
+    scree_error problem = {0};
+    scree_status status = list_members(results, point, folder, &count, error);
+    if (!status)
+        status = scree_ensemble_folder(output, sizeof output, results->options->output, sweep->point[point], error);
+    options.output = output;
+    options.no_figures = !results->options->figures;
+    options.message = pass_warning;
+    options.user = (void *)results;
+    if (!status && count > 0) {
+        status = scree_measure((const char *const *)folder, count, &options, &problem);
+        if (status == SCREE_ERROR_INPUT)
+            scree_sweep_tell(results->options, 1, "ensemble of '%s': %s", sweep->point[point], problem.message);
+        else if (status)
+            *error = problem;
+        if (status == SCREE_ERROR_INPUT) status = SCREE_OK;
+    }
+    for (size_t k = 0; k < count; k++) scree_release(&folder[k]);
+    return status;
+}
+
+scree_status scree_ensembles_measure(const scree_sweep_results *results, scree_error *error)
+{
+    const scree_sweep *sweep = results->sweep;
+    char **folder;
+    if (!sweep->measures_ensembles || results->done == 0) return SCREE_OK;
+    scree_status status = scree_allocate(&folder, sweep->realisations, sizeof *folder, error);
+    for (size_t point = 0; point < sweep->point_count && !status; point++)
+        status = measure_point(results, point, folder, error);
+    scree_release(&folder);
+    return status;
+}
