@@ -47,6 +47,12 @@ static scree_status measure_point(const scree_sweep_results *results, size_t poi
     options.user = (void *)results;
     if (!status && count > 0) {
         status = scree_measure((const char *const *)folder, count, &options, &problem);
+        // Too few piles, or too small ones, for theories still have their averages.
+        if (status == SCREE_ERROR_INPUT && options.fit && strcmp(problem.field, "--fit") == 0) {
+            scree_sweep_tell(results->options, 1, "ensemble of '%s': %s", sweep->point[point], problem.message);
+            options.fit = NULL;
+            status = scree_measure((const char *const *)folder, count, &options, &problem);
+        }
         if (status == SCREE_ERROR_INPUT)
             scree_sweep_tell(results->options, 1, "ensemble of '%s': %s", sweep->point[point], problem.message);
         else if (status)

@@ -69,10 +69,11 @@ name: averaged
 case: pour-discs
 realisations: 2
 set: {particles.count: 60, sources.spout.interval: 20 ms, output.paraview: no, output.figures: no}
-ensemble: {cuts: "0,0.4"}
+ensemble: {cuts: "0,0.4", fit: osl}
 END
 sed 's/0,0.4/0,4/' averaged.yaml >bad.yaml
 expect 2 "bad.yaml:5:19: ensemble.cuts: .*says no heights of cuts" "$scree" sweep bad.yaml -n
+expect 0 'three piles or more' "$scree" sweep averaged.yaml -o averaged --jobs 2
 expect 0 'ensemble: averaged/members/000-seed=1: an element holds 6 grains' "$scree" sweep averaged.yaml -o averaged --jobs 2
 expect 0 '' cmp averaged/ensemble/all/cuts.csv both/cuts.csv
 expect 0 '' cmp averaged/ensemble/all/dips.csv both/dips.csv
