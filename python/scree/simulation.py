@@ -162,13 +162,14 @@ class Simulation:
     def run_stage(self, name: Optional[str] = None) -> None:
         """Goes to the end of the present stage, which stays the present one; after its end, of the next. With a name:
         through all stages up to the end of the one that is called so."""
-        if name is not None and self.stage != name:
-            before = None
-            while self.stage != name and before != (self.stage_index, self.steps):
-                before = self.stage_index, self.steps
-                call(lib.scree_simulation_begin_stage, self._open(), name.encode()) if not self._callbacks \
-                    else self._advance(None, lib.scree_simulation_advance_within_stage)
-        self._advance(None, lib.scree_simulation_advance_within_stage)
+        still = 0
+        while still < 2:  # once: a stage that takes no steps; twice: the end of the case
+            before = self.stage_index, self.steps
+            self._advance(None, lib.scree_simulation_advance_within_stage)
+            if name is None or self.stage == name:
+                return
+            still = still + 1 if before == (self.stage_index, self.steps) else 0
+        raise ValueError(f"no stage '{name}' is left")
 
     def begin_stage(self, name: Optional[str] = None) -> None:
         """Goes on until the stage of this name has begun; None: the first one that takes steps. Functions of `every` are
