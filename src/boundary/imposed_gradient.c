@@ -8,6 +8,9 @@
 /// the integers telescope and the forces of a closed surface add up to zero to the last bit. Rounding is half a quantum
 /// a term. Places are relative to a node, so the terms stay small. Cost: O(facets).
 ///
+/// Bodies that deform are strained by these forces as by contacts: they come in at the arm R a/|a|, outwards along the
+/// area vector of the body. They are known behind the contacts, and strain the bodies with those of the same step.
+///
 /// Rates, volume and work steer the run or stay in its state: sums in integers, whose nodes may come in any order.
 #include "boundary/imposed_gradient.h"
 #include "measure/imposed_gradient.h"
@@ -15,6 +18,8 @@
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "base/wrapping.h"
+#include "boundary/surface_work.h"
+#include "contact/stretch.h"
 #include "measure/facets.h"
 #include "state/fields.h"
 
@@ -29,6 +34,7 @@ scree_status scree_imposed_begin(const scree_model *model, scree_state *state, s
     imposed->achieved = imposed->wanted = 0;
     memset(imposed->rate, 0, sizeof imposed->rate);
     memset(imposed->stress, 0, sizeof imposed->stress);
+    if (imposed->surface) memset(imposed->surface, 0, state->count * sizeof *imposed->surface);
     return SCREE_OK;
 }
 
@@ -143,6 +149,50 @@ void scree_imposed_apply_stress(const scree_model *model, scree_state *state, co
         for (int t = 0; t < terms; t++) add_term(&facet, t, (t + 1) % facet.corners, stress, scale, share);
         for (int c = 0; c < facet.corners; c++) scree_imposed_add(state, facet.node[c], share);
     }
+}
+
+/// Half of the work over surfaces, with the moments that are kept.
+static void add_surface_work(scree_state *state)
+{
+    const double work = scree_surface_half_work(state, (const double(*)[6])scree_imposed(state)->surface);
+    state->ledger.boundary += work;
+    state->ledger.turnover += fabs(work);
+}
+
+/// The moments that strain a body, in the quanta of those of its contacts.
+static void add_moments(scree_state *state)
+{
+    const int d = state->dimension;
+    const scree_tensor_place *place = scree_tensor_places(d);
+    for (size_t row = 0; row < state->count; row++)
+        for (int k = 0; k < scree_tensor_size(d); k++) {
+            const int64_t quanta = llrint(scree_imposed(state)->surface[row][k] / state->force_quantum);
+            int64_t *moment = state->moment + row * scree_moment_size(d);
+            moment[d * place[k].i + place[k].j] += quanta;
+            if (place[k].i != place[k].j) moment[d * place[k].j + place[k].i] += quanta;
+        }
+}
+
+scree_status scree_imposed_strain(scree_state *state, scree_vector *area, const double stress[9], scree_error *error)
+{
+    scree_imposed_gradient *imposed = scree_imposed(state);
+    if (!state->stretch || !state->moment) return SCREE_OK;
+    scree_status status = imposed->surface ? SCREE_OK : scree_state_begin_field(state, scree_imposed_surface, error);
+    if (status) return status;
+    add_surface_work(state);
+    memset(imposed->surface, 0, state->count * sizeof *imposed->surface);
+    for (size_t k = 0; k < imposed->count; k++) {
+        const double size = scree_length(area[k]);
+        double force[3], outward[3];
+        for (int i = 0; i < 3; i++) {
+            force[i] = stress[3 * i] * area[k][0] + stress[3 * i + 1] * area[k][1] + stress[3 * i + 2] * area[k][2];
+            outward[i] = size > 0 ? area[k][i] / size : 0;
+        }
+        scree_surface_add(state->dimension, outward, force, imposed->surface[scree_boundary_row(state, k)]);
+    }
+    add_moments(state);
+    add_surface_work(state);
+    return SCREE_OK;
 }
 
 scree_status scree_imposed_work(const scree_context *context, scree_error *error)

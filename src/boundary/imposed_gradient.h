@@ -33,6 +33,11 @@ void scree_imposed_record(scree_state *state, const double rate[9]);
 /// added to the sums and to force. stress [Pa], tension positive. quantum: that of the present step.
 void scree_imposed_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);
 
+/// Where bodies deform: what forces stress . area at the surfaces of the nodes add to the moments that strain them,
+/// with its work; before the strains of the next step are found. Errors: memory.
+scree_status scree_imposed_strain(scree_state *state, scree_vector *area, const double stress[9],
+                                  scree_error *error) SCREE_MUST_USE;
+
 /// What stages ask of a boundary that imposes a velocity gradient (imposed_control.c).
 double scree_imposed_wave_time(const scree_context *context, double pressure);
 void scree_imposed_fit(const scree_context *context, double pressure);

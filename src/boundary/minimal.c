@@ -178,7 +178,6 @@ static scree_status add_forces(const scree_context *c, scree_error *error)
     const scree_model *model = c->model;
     scree_state *state = c->state;
     scree_imposed_gradient *imposed = scree_imposed(state);
-    (void)error;
     if (imposed->count == 0) return SCREE_OK;
     double actual[9], predicted[9], mobility[9];
     // The array of the forces holds the area vectors until they are known.
@@ -187,8 +186,11 @@ static scree_status add_forces(const scree_context *c, scree_error *error)
     scree_imposed_record(state, actual);
     predict(state, imposed->force, volume, c->work->next_kick, actual, predicted, mobility);
     find_stress(imposed, predicted, mobility, c->work->next_kick, imposed->stress);
+    const bool fits = stress_fits(model, state, imposed->stress);
+    scree_status status = fits ? scree_imposed_strain(state, imposed->force, imposed->stress, error) : SCREE_OK;
+    if (status) return status;
     memset(imposed->force, 0, imposed->count * sizeof *imposed->force);
-    if (!stress_fits(model, state, imposed->stress)) {
+    if (!fits) {
         c->work->flags |= SCREE_FLAG_FORCE_RANGE;
         c->work->flagged_id = state->id[scree_boundary_row(state, 0)];
         return SCREE_OK;
@@ -234,9 +236,8 @@ static const scree_pass passes[] = SCREE_IMPOSED_PASSES(add_forces);
 
 static const scree_boundary face = {
     .full_mirrors = true,
-    // Its tractions hang on velocities, so they are known behind the contacts only, too late for strains.
-    .needs_rigid = "particles that deform cannot feel the tractions of minimal conditions: give boundary: plates, "
-                   "pressure or affine",
+    .needs_lag = "the tractions of minimal conditions are known behind the contacts of a step, too late for implicit "
+                 "strains: give contact.deformation: relaxed",
     .resolve = resolve,
     .passes = passes,
     .pass_count = COUNT(passes),

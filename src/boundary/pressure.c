@@ -29,6 +29,7 @@
 #include "boundary/hull.h"
 #include "boundary/loaded_edges.h"
 #include "boundary/loaded_triangles.h"
+#include "boundary/surface_work.h"
 #include "comm/comm.h"
 #include "contact/stretch.h"
 #include "measure/facets.h"
@@ -297,18 +298,9 @@ static scree_status attack(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-/// Half of the work over what the strains of the step do to surfaces, with the moments that are kept.
 static void add_half_surface_work(scree_state *state)
 {
-    const int d = state->dimension;
-    scree_integer_sum sum = {0};
-    while (scree_comm_sum_next(state, &sum, 1))
-        for (size_t row = 0; row < state->count; row++) {
-            double change[6];
-            scree_tensor_get(d, scree_stretch_row(state, row) + scree_stretch_size(d) / 2, change);
-            scree_integer_sum_add(&sum, scree_tensor_product(d, own_state(state)->surface[row], change));
-        }
-    const double work = 0.5 * scree_integer_sum_total(&sum);
+    const double work = scree_surface_half_work(state, (const double(*)[6])own_state(state)->surface);
     state->ledger.pressure += work;
     state->ledger.turnover += fabs(work);
 }

@@ -130,11 +130,15 @@ static void judge_material(scree_reader *reader, const scree_config *whole, int6
 static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t index)
 {
     char path[SCREE_PATH_BYTES];
+    const bool lags = own_config(whole)->deformation != IMPLICIT;
     if (!scree_modules[whole->stages[index].kind]->numbers->held) return;
     const scree_boundary *boundary = scree_config_held_by(whole, index);
     (void)snprintf(path, sizeof path, "stages.%lld.boundary", (long long)index);
     if (boundary && boundary->needs_rigid)
-        scree_rule_refuse(reader, path, "plates, pressure, affine, periodic, none", "%s", boundary->needs_rigid);
+        scree_rule_refuse(reader, path, "plates, pressure, affine, minimal, periodic, none", "%s",
+                          boundary->needs_rigid);
+    else if (boundary && boundary->needs_lag && !lags)
+        scree_rule_refuse(reader, path, "plates, pressure, affine, periodic, none", "%s", boundary->needs_lag);
 }
 
 static void rules(scree_reader *reader, const scree_config *whole)

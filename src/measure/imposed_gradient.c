@@ -13,6 +13,11 @@ const scree_group scree_imposed_nodes = {"node", "b", offsetof(own, count), offs
 static const scree_field fields[] = {
     SCREE_FIELD_GROUP(imposed_gradient, own, scree_imposed_nodes, force, scree_vector, "imposed_gradient/force",
                       SCREE_FIELD_DOUBLE, 3, "N", "force of the imposed rates on each body of the boundary"),
+    SCREE_FIELD_BODY(
+        imposed_gradient, own, surface, double[6], "imposed_gradient/surface", SCREE_FIELD_DOUBLE, 6, "N",
+        "moments over the radius of the forces of the imposed rates on the surface of a body that deforms: "
+        "xx, yy, xy; xx, yy, zz, yz, xz, xy",
+        .optional = true),
     ONE(target, "imposed_gradient/target", SCREE_FIELD_DOUBLE, 9, "1/s", "wanted velocity gradient, 3 x 3 by rows"),
     ONE(prescribed, "imposed_gradient/prescribed", SCREE_FIELD_INT64, 9, "1",
         "of each component of target: 0 free, 1 prescribed, 2 prescribed for the mean of it and its mirror",
@@ -28,6 +33,8 @@ static const scree_field fields[] = {
     ONE(wanted, "imposed_gradient/wanted", SCREE_FIELD_DOUBLE, 1, "1/s",
         "integral of target : target over time since the last sample"),
 };
+
+const scree_field *const scree_imposed_surface = &fields[1];
 
 /// One force a node of the boundary, or none.
 static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)

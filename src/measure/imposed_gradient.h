@@ -16,6 +16,7 @@ typedef struct scree_imposed_gradient {
     double wanted;         ///< 1/s, the same of target : target
     scree_vector *force;   ///< count, N, on the bodies of the boundary at n (scree_boundary_row in measure/facets.h)
     size_t count, capacity;
+    double (*surface)[6]; ///< N, one a body that deforms: moments over the radius of these forces at n; may be NULL
 } scree_imposed_gradient;
 
 /// How a component of the velocity gradient is prescribed.
@@ -27,6 +28,7 @@ typedef enum scree_prescription {
 } scree_prescription;
 
 extern const scree_group scree_imposed_nodes;
+extern const scree_field *const scree_imposed_surface; ///< asked for where bodies deform
 
 static inline scree_imposed_gradient *scree_imposed(const scree_state *state)
 {

@@ -34,6 +34,7 @@ typedef struct scree_boundary {
     const char *needs_ends;     ///< where the sample repeats itself in some directions
     const char *needs_axis;     ///< where it does along its axis, in a stage that presses or shortens it
     const char *needs_rigid;    ///< where the bodies deform: forces of its own act on them, not at their centres
+    const char *needs_lag;      ///< where their strains are those of the forces of the same step
     const char *kept;     ///< where another follows it; after a free one those that are not free, after others all
     const char *returned; ///< where it follows another
 

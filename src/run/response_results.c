@@ -6,6 +6,7 @@
 /// them is that of series.csv. Tables: response.csv (along cuts), response-depths.csv (their peaks),
 /// response-contacts.csv.
 #include "average/strain.h"
+#include "base/vectors.h"
 #include "case/check.h"
 #include "io/run_directory.h"
 #include "io/sample_file.h"
@@ -301,6 +302,11 @@ static scree_status read_samples(finding *f, scree_error *error)
     if (!status)
         status = scree_response_open(&f->before, &f->after, s->state.id[row], f->n->element, &f->response, error);
     f->response.force = force_at(f, f->mark[f->count - 1].time);
+    const scree_prescribed_config *own = scree_prescribed_config_of(s->model.loads, f->n->load);
+    if (!status && own->until_force > 0 && scree_length(scree_prescribed_of(&s->state)->given[f->n->load]) == 0)
+        status = scree_error_set(error, SCREE_ERROR_INPUT,
+                                 "the layer gives way: the load has not met its force (until_force) and still moves; "
+                                 "take a smaller force");
     if (!status && !(f->response.force > 0))
         status = scree_error_set(error, SCREE_ERROR_INPUT, "the load pulls, or is none at the end");
     return status;
