@@ -8,10 +8,13 @@ import ctypes
 import os
 import re
 import shutil
+import sys
 from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_bool, c_char, c_char_p, c_double, c_int, c_int64,
                     c_long, c_size_t, c_uint32, c_uint64, c_void_p)
 from pathlib import Path
 from typing import Any, Optional, Union
+
+import numpy
 
 from ._errors import KINDS, CaseError, Problem, ScreeError
 
@@ -316,7 +319,10 @@ class Interruption:
             signal.signal(signal.SIGINT, self._before)
 
 
-TYPES = ("f8", "i8", "u8", "f4", "i4", "u4", "u1")  #: of a component, as numpy writes it: scree_field_type
+#: Of a component, as NumPy writes it, and its bytes: scree_field_type.
+TYPES = tuple(("|" if size == 1 else "<" if sys.byteorder == "little" else ">") + kind + str(size) for kind, size in (
+    ("f", 8), ("i", 8), ("u", 8), ("f", 4), ("i", 4), ("u", 4), ("u", 1)))
+SIZES = (8, 8, 8, 4, 4, 4, 1)
 
 
 class Block:
@@ -327,13 +333,11 @@ class Block:
 
     def __init__(self, view: View, keeper: Optional[int]):
         self._keeper = keeper
-        size = int(TYPES[view.type][1])
-        single = view.components == 1
-        import sys
+        count, components, stride, kind = view.count, view.components, view.stride, view.type
+        single = components == 1
         self.__array_interface__ = {
-            "version": 3, "typestr": ("|" if size == 1 else "<" if sys.byteorder == "little" else ">") + TYPES[view.type],
-            "shape": (view.count,) if single else (view.count, view.components),
-            "strides": (view.stride,) if single else (view.stride, size), "data": (view.data or 0, True),
+            "version": 3, "typestr": TYPES[kind], "shape": (count,) if single else (count, components),
+            "strides": (stride,) if single else (stride, SIZES[kind]), "data": (view.data, True),
         }
 
     def __del__(self) -> None:
@@ -342,7 +346,6 @@ class Block:
 
 
 def array_of(view: View, keeper: Optional[int]) -> Any:
-    import numpy
     if not view.data or view.count == 0:
         shape = (0,) if view.components == 1 else (0, view.components)
         empty = numpy.zeros(shape, TYPES[view.type])

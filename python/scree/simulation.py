@@ -105,6 +105,8 @@ class Simulation:
         self._case = checked  # must outlive the handle
         self._struct, self._error = View(), Error()
         self._view_reference, self._error_reference = byref(self._struct), byref(self._error)
+        self._keeper = c_void_p()
+        self._keeper_reference = byref(self._keeper)
         self._seen: "dict[str, tuple[bytes, Optional[int], int, np.ndarray]]" = {}
         self._forces: "dict[str, Any]" = {}
         self._callbacks: "list[tuple[int, Callable[[Simulation], Any]]]" = []
@@ -303,9 +305,10 @@ class Simulation:
         return iter(self.fields())
 
     def _new_view(self, handle: int, name: str, encoded: bytes) -> np.ndarray:
-        keeper = c_void_p()
-        error = Error()
-        check(lib.scree_simulation_keep_view(handle, encoded, byref(self._struct), byref(keeper), byref(error)), error)
+        keeper = self._keeper
+        status = lib.scree_simulation_keep_view(handle, encoded, self._view_reference, self._keeper_reference,
+                                                self._error_reference)
+        check(status, self._error)
         array = array_of(self._struct, keeper.value)
         self._seen[name] = (encoded, self._struct.data, self._struct.count, array)
         return array
