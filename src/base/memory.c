@@ -1,5 +1,7 @@
 /// Aligned allocation with a count of live bytes and a hook that makes the n-th allocation fail.
 /// Each block is preceded by one alignment unit that holds its size, and by how many it is held (base/memory_hold.h).
+#include "base/memory.h"
+
 #include "base/memory_hold.h"
 
 #include <malloc.h>

@@ -3,8 +3,6 @@
 #ifndef SCREE_BASE_MEMORY_HOLD_H
 #define SCREE_BASE_MEMORY_HOLD_H
 
-#include "base/memory.h"
-
 /// Holds a block from scree_allocate or scree_reallocate: as many scree_release as holders, and one, free it.
 void scree_memory_hold(void *block);
 

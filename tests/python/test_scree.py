@@ -280,6 +280,7 @@ class Folders(unittest.TestCase):
         self.assertEqual(last["id"].dtype, np.uint32)
         self.assertEqual(last.about("position")[0], "m")
         self.assertEqual(last.stage, "compress")
+        self.assertTrue(0 < last.time <= self.run_["time"])
         force = last["contacts/normal_force"]
         np.testing.assert_array_equal(force, last.contacts["normal_force"])
         del snapshots, last

@@ -3,7 +3,7 @@
 
 #include <scree/scree.h>
 
-static const char scratch[] = "test_run_data";
+static const char scratch[] = "run_data.out";
 
 typedef struct seen {
     int groups, datasets;
