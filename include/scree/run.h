@@ -3,6 +3,8 @@
 #define SCREE_RUN_H
 
 #include <scree/case.h>
+#include <scree/keeper.h>
+#include <scree/view.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -68,6 +70,25 @@ SCREE_API scree_status scree_result_get(const char *directory, const char *name,
 SCREE_API scree_status scree_result_visit(const char *directory,
                                           void (*visit)(void *user, const char *name, const char *value), void *user,
                                           scree_error *error);
+
+// ---- run.h5 ------------------------------------------------------------------------------------------------------
+
+/// Calls `visit` for what is in a group of run.h5 ("/", "snapshots", "snapshots/000012"), by name. Errors:
+/// SCREE_ERROR_IO (no run.h5 there, or it is damaged), SCREE_ERROR_INPUT: no such group; memory.
+SCREE_API scree_status scree_run_data_visit(const char *directory, const char *group,
+                                            void (*visit)(void *user, const char *name, bool is_group), void *user,
+                                            scree_error *error);
+
+/// Reads a dataset, "snapshots/000012/contacts/force" (docs/output.md), into memory of its own that *keeper keeps,
+/// texts of the view too. Errors: as above.
+SCREE_API scree_status scree_run_data_read(const char *directory, const char *path, scree_view *view,
+                                           scree_keeper **keeper, scree_error *error);
+
+/// Calls `visit` for each attribute of a group or a dataset: a number, or a text (NULL for a number). Errors: as above.
+SCREE_API scree_status scree_run_data_attributes(const char *directory, const char *path,
+                                                 void (*visit)(void *user, const char *name, double number,
+                                                               const char *text),
+                                                 void *user, scree_error *error);
 
 /// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL. Errors: SCREE_ERROR_IO,
 /// SCREE_ERROR_INPUT while a run goes on there.

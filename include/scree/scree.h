@@ -14,6 +14,7 @@
 
 #include <scree/case.h>
 #include <scree/error.h>
+#include <scree/keeper.h>
 #include <scree/measure.h>
 #include <scree/run.h>
 #include <scree/simulation.h>

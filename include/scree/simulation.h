@@ -8,6 +8,7 @@
 #define SCREE_SIMULATION_H
 
 #include <scree/case.h>
+#include <scree/keeper.h>
 #include <scree/view.h>
 
 #ifdef __cplusplus
@@ -33,6 +34,11 @@ SCREE_API scree_status scree_simulation_advance(scree_simulation *s, uint64_t st
 /// prepares the bodies. Errors: as above.
 SCREE_API scree_status scree_simulation_advance_stage(scree_simulation *s, bool *done, scree_error *error);
 
+/// At most `steps` steps, and not beyond the end of the present stage; *ended tells whether it has ended. It stays the
+/// present one; after its end, the next. Errors: as above.
+SCREE_API scree_status scree_simulation_advance_within_stage(scree_simulation *s, uint64_t steps, bool *ended,
+                                                             scree_error *error);
+
 SCREE_API int scree_simulation_dimension(const scree_simulation *s);  ///< 2 or 3
 SCREE_API double scree_simulation_time(const scree_simulation *s);    ///< s
 SCREE_API uint64_t scree_simulation_steps(const scree_simulation *s); ///< taken since the begin
@@ -56,6 +62,13 @@ SCREE_API uint64_t scree_simulation_checksum(scree_simulation *s);
 /// name that is none (`accepted` holds the nearest), or a field of the other dimension; memory.
 SCREE_API scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_view *view,
                                              scree_error *error);
+
+/// As scree_simulation_view, for programs that cannot know how long somebody looks at a view, as bindings of other
+/// languages: *keeper (NULL for a view without elements) keeps its memory from being freed until scree_keeper_free,
+/// also when the simulation is freed before. What is seen is the present until arrays move to grow, and stays as it was
+/// from then on; data and count of a new view tell. Errors: as above.
+SCREE_API scree_status scree_simulation_keep_view(scree_simulation *s, const char *name, scree_view *view,
+                                                  scree_keeper **keeper, scree_error *error);
 
 /// Names of all fields that this simulation has, by index; NULL behind the last.
 SCREE_API const char *scree_simulation_view_name(const scree_simulation *s, size_t index);
@@ -165,6 +178,9 @@ SCREE_API scree_status scree_simulation_remove_force(scree_simulation *s, const 
 /// Adds a force [N] and a torque [N m] (NULL: none) to the body with this id. A value beyond the bound or not finite,
 /// or an id that no body has, stops the simulation behind this step with a message.
 SCREE_API void scree_loads_add(scree_loads *loads, uint32_t id, const double force[3], const double torque[3]);
+/// The same for many bodies. force: count x 3 [N]; torque: count x 3 [N m]; each may be NULL.
+SCREE_API void scree_loads_add_many(scree_loads *loads, size_t count, const uint32_t *id, const double *force,
+                                    const double *torque);
 
 // ---- changes -----------------------------------------------------------------------------------------------------
 

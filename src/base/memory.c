@@ -1,6 +1,8 @@
 /// Aligned allocation with a count of live bytes and a hook that makes the n-th allocation fail.
-/// Each block is preceded by one alignment unit that holds its size.
+/// Each block is preceded by one alignment unit that holds its size, and by how many it is held (base/memory_hold.h).
 #include "base/memory.h"
+
+#include "base/memory_hold.h"
 
 #include <malloc.h>
 #include <stdatomic.h>
@@ -8,6 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+
+typedef struct block_head {
+    size_t bytes;
+    _Atomic size_t holders; ///< the last one frees the block
+} block_head;
+_Static_assert(sizeof(block_head) <= SCREE_ALIGNMENT, "the head of a block fits into one alignment unit");
 
 static _Atomic uint64_t calls;
 static _Atomic uint64_t failing_call;
@@ -37,7 +45,9 @@ static void *allocate_bytes(size_t bytes)
     size_t whole = (bytes + 2 * SCREE_ALIGNMENT - 1) / SCREE_ALIGNMENT * SCREE_ALIGNMENT;
     unsigned char *block = whole < bytes ? NULL : aligned_alloc(SCREE_ALIGNMENT, whole);
     if (!block) return NULL;
-    memcpy(block, &bytes, sizeof bytes);
+    block_head *head = (block_head *)(void *)block;
+    head->bytes = bytes;
+    atomic_init(&head->holders, 1);
     memset(block + SCREE_ALIGNMENT, 0, whole - SCREE_ALIGNMENT);
     size_t now = atomic_fetch_add(&live, bytes) + bytes;
     size_t before = atomic_load(&highest);
@@ -86,14 +96,22 @@ scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count,
     return SCREE_OK;
 }
 
+static block_head *head_of(void *block)
+{
+    return (block_head *)(void *)((unsigned char *)block - SCREE_ALIGNMENT);
+}
+
+void scree_memory_hold(void *block)
+{
+    atomic_fetch_add(&head_of(block)->holders, 1);
+}
+
 void scree_release(void *pointer)
 {
     unsigned char *block, *none = NULL;
     memcpy(&block, pointer, sizeof block);
-    if (!block) return;
-    size_t bytes;
-    memcpy(&bytes, block - SCREE_ALIGNMENT, sizeof bytes);
-    atomic_fetch_sub(&live, bytes);
-    free(block - SCREE_ALIGNMENT);
     memcpy(pointer, &none, sizeof none);
+    if (!block || atomic_fetch_sub(&head_of(block)->holders, 1) > 1) return;
+    atomic_fetch_sub(&live, head_of(block)->bytes);
+    free(head_of(block));
 }

@@ -82,6 +82,18 @@ scree_status scree_simulation_advance_stage(scree_simulation *s, bool *done, scr
     return status;
 }
 
+scree_status scree_simulation_advance_within_stage(scree_simulation *s, uint64_t steps, bool *ended, scree_error *error)
+{
+    scree_status status = may_step(s, error);
+    uint64_t target = s->state.evaluations + steps;
+    *ended = is_at_end(s);
+    while (!status && !*ended && s->state.evaluations < target) {
+        status = step(s, error);
+        *ended = s->stage_ended || has_ended(s);
+    }
+    return status;
+}
+
 int scree_simulation_dimension(const scree_simulation *s)
 {
     handle_assert(s);

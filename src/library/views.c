@@ -1,6 +1,7 @@
 /// Views of the declared fields (state/fields.h), and copies of what is mostly wanted by id.
 #include "library/handle.h"
 
+#include "base/memory_hold.h"
 #include "state/fields.h"
 
 #include <string.h>
@@ -75,12 +76,8 @@ static double lag_of(const scree_simulation *s, const scree_field *field)
     return (0.5 - lead) * s->state.step_size;
 }
 
-scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_view *view, scree_error *error)
+static scree_status view_field(scree_simulation *s, const scree_field *field, scree_view *view, scree_error *error)
 {
-    handle_assert(s);
-    *view = (scree_view){0};
-    const scree_field *field = find(s, name);
-    if (!field) return refuse(s, name, error);
     if (field->rows == SCREE_ROWS_CONTACTS || field->law) {
         scree_status status = scree_contacts_save(&s->state, &s->work, error);
         if (status) return status;
@@ -94,6 +91,38 @@ scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_
                          .meaning = field->meaning};
     if (view->count > 0) view->data = scree_field_get(&s->state, field, 0);
     return SCREE_OK;
+}
+
+scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_view *view, scree_error *error)
+{
+    handle_assert(s);
+    *view = (scree_view){0};
+    const scree_field *field = find(s, name);
+    return field ? view_field(s, field, view, error) : refuse(s, name, error);
+}
+
+/// The block of memory that a field lies in: an array, the struct of a module, or the simulation itself.
+static void *block_of(scree_simulation *s, const scree_field *field)
+{
+    unsigned char *array = scree_field_array(&s->state, field), *block = array - field->array_offset;
+    if (scree_field_is_array(field)) memcpy(&block, array, sizeof block);
+    return block == (unsigned char *)&s->state ? (void *)s : block;
+}
+
+scree_status scree_simulation_keep_view(scree_simulation *s, const char *name, scree_view *view, scree_keeper **keeper,
+                                        scree_error *error)
+{
+    *keeper = NULL;
+    scree_status status = scree_simulation_view(s, name, view, error);
+    if (status || !view->data) return status;
+    *keeper = block_of(s, find(s, name));
+    scree_memory_hold(*keeper);
+    return SCREE_OK;
+}
+
+void scree_keeper_free(scree_keeper *keeper)
+{
+    scree_release(&keeper);
 }
 
 void scree_simulation_copy(const scree_simulation *s, double *position, double *velocity, double *spin)

@@ -97,6 +97,13 @@ void scree_loads_add(scree_loads *loads, uint32_t id, const double force[3], con
         add(loads, id, "torque", torque, loads->force->largest_torque, loads->state->torque_quantum, sums->torque[id]);
 }
 
+void scree_loads_add_many(scree_loads *loads, size_t count, const uint32_t *id, const double *force,
+                          const double *torque)
+{
+    for (size_t k = 0; k < count; k++)
+        scree_loads_add(loads, id[k], force ? &force[3 * k] : NULL, torque ? &torque[3 * k] : NULL);
+}
+
 /// Calls the functions; their forces are in the sums of the module.
 static scree_status call(const scree_context *c, scree_error *error)
 {

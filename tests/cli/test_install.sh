@@ -13,6 +13,17 @@ for file in bin/scree include/scree/scree.h share/man/man1/scree.1 share/bash-co
 done
 same "$("$prefix/bin/scree" list)" "$("$scree" list)" "the installed program"
 
+# --- the Python package, where there is one
+if package=$(find "$prefix/lib" -path '*/dist-packages/scree/__init__.py') && [ -n "$package" ]; then
+    packages=${package%/scree/__init__.py}
+    [ -f "$packages/scree/py.typed" ] || complain "py.typed is not installed"
+    python=$([ -x /usr/bin/python3 ] && echo /usr/bin/python3 || echo python3)
+    if "$python" -c 'import numpy' 2>/dev/null && ! nm "$build/libscree.a" 2>/dev/null | grep -qE '__(asan|tsan)_init'; then
+        expect 0 "^$prefix/" env PYTHONPATH="$packages" PYTHONDONTWRITEBYTECODE=1 "$python" -c \
+            'import scree; scree.Simulation(scree.Case("biaxial", quick=True), 1).step(1); print(scree.library_path)'
+    fi
+fi
+
 # --- pkg-config, from wherever the folder lies now
 pc=$(find "$prefix" -name scree.pc)
 export PKG_CONFIG_PATH=${pc%/*}

@@ -30,8 +30,8 @@ static int pull(void *user, scree_simulation *s, scree_loads *loads)
         force[k] = p->stiffness * (distance - p->length) * branch[k] / distance;
         back[k] = -force[k];
     }
-    scree_loads_add(loads, 0, force, NULL);
-    scree_loads_add(loads, 1, back, NULL);
+    const double both[6] = {force[0], force[1], force[2], back[0], back[1], back[2]};
+    scree_loads_add_many(loads, 2, (const uint32_t[]){0, 1}, both, NULL);
     return 0;
 }
 

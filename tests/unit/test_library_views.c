@@ -2,6 +2,9 @@
 /// that are those of the files, drafts of cases.
 #include "library_fixture.h"
 
+#include "base/memory.h"
+#include "state/store.h"
+
 #include "measure/measure.h"
 #include "state/plates.h"
 
@@ -233,13 +236,52 @@ static void drafts_make_cases(void **unused)
     scree_draft_free(NULL);
 }
 
+/// What is kept can be read when the arrays have moved, and when the simulation is gone; then it is freed.
+static void kept_views_outlive_their_simulation(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"position", "radius", "walls/position", "contacts/first", "ledger/outside"};
+    enum { COUNT = sizeof names / sizeof *names };
+    size_t before, behind;
+    scree_error error;
+    scree_view view[COUNT];
+    scree_keeper *keeper[COUNT];
+    unsigned char first[COUNT][8];
+    scree_case *c = case_read(SIMULATION_SMALL, NULL, 0);
+    scree_allocation_statistics(&before, NULL);
+    scree_simulation *s = library_create(c);
+    check(scree_simulation_keep_view(s, "position", &view[0], &keeper[0], &error), &error);
+    assert_null(keeper[0]);
+    scree_keeper_free(NULL);
+    assert_int_equal(scree_simulation_keep_view(s, "postion", &view[0], &keeper[0], &error), SCREE_ERROR_INPUT);
+    library_advance(s, 400);
+    for (size_t k = 0; k < COUNT; k++) {
+        check(scree_simulation_keep_view(s, names[k], &view[k], &keeper[k], &error), &error);
+        assert_ptr_equal(view[k].data, library_view(s, names[k]).data);
+        memcpy(first[k], view[k].data, k == 3 ? 4 : 8);
+    }
+    // The arrays of bodies move; what was kept stays as it was.
+    check(scree_state_reserve_rows(&s->state, 10 * s->state.row_capacity, &error), &error);
+    assert_ptr_not_equal(view[0].data, library_view(s, "position").data);
+    scree_simulation_free(s);
+    size_t held;
+    scree_allocation_statistics(&held, NULL);
+    assert_true(held > before);
+    for (size_t k = 0; k < 4; k++) assert_memory_equal(first[k], view[k].data, k == 3 ? 4 : 8);
+    for (size_t k = 0; k < COUNT; k++) scree_keeper_free(keeper[k]);
+    scree_allocation_statistics(&behind, NULL);
+    assert_int_equal(behind, before);
+    scree_case_free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(time_goes_by_steps_and_stages),   cmocka_unit_test(views_are_the_fields_in_2d),
-        cmocka_unit_test(views_are_the_fields_in_3d),      cmocka_unit_test(known_views_hold_what_they_say),
-        cmocka_unit_test(names_that_are_none_are_refused), cmocka_unit_test(copies_are_by_id),
-        cmocka_unit_test(contacts_and_measures_agree),     cmocka_unit_test(drafts_make_cases),
+        cmocka_unit_test(time_goes_by_steps_and_stages),       cmocka_unit_test(views_are_the_fields_in_2d),
+        cmocka_unit_test(views_are_the_fields_in_3d),          cmocka_unit_test(known_views_hold_what_they_say),
+        cmocka_unit_test(names_that_are_none_are_refused),     cmocka_unit_test(copies_are_by_id),
+        cmocka_unit_test(contacts_and_measures_agree),         cmocka_unit_test(drafts_make_cases),
+        cmocka_unit_test(kept_views_outlive_their_simulation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
