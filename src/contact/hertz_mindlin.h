@@ -7,7 +7,8 @@
 ///   rolling   stretch [m], rate R_eff (w_first - w_second) x n, k_t, eta, cap mu_r f_n: F_r, torque R_eff n x F_r
 ///   twisting  angle [rad], rate (w_first - w_second) . n, k_t a^2 / 2, eta a^2 / 2, cap mu_tw R_eff f_n: torque along
 ///   n
-/// each a spring with a slider and a dashpot (slider.h). Twisting is that of two plane surfaces of radius a that stick
+/// each a spring with a slider and a dashpot (slider.h); those of rolling and twisting may be constant torques in place
+/// of it (MINDLIN_CONSTANT, constant_torque.h). Twisting is that of two plane surfaces of radius a that stick
 /// (Marshall 2009, whose cap is 2/3 a mu f_n; here its own coefficient, as for rolling). The couples on the two bodies
 /// are opposite.
 ///
@@ -36,6 +37,7 @@
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
 #define SCREE_CONTACT_HERTZ_MINDLIN_H
 
+#include "contact/constant_torque.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
 #include "contact/slider.h"
@@ -43,7 +45,8 @@
 /// Options.
 enum {
     MINDLIN_RESCALED = 1, ///< springs that stiffen keep their force, not their displacement
-    MINDLIN_ROLLING = 2,  ///< some pair of materials resists rolling or twisting
+    MINDLIN_ROLLING = 2,  ///< some pair of materials resists rolling or twisting, with springs
+    MINDLIN_CONSTANT = 4, ///< the same with constant torques, in place of springs
 };
 
 typedef enum scree_tangential_history {
@@ -51,9 +54,12 @@ typedef enum scree_tangential_history {
     SCREE_TANGENTIAL_RESCALED
 } scree_tangential_history;
 
+typedef enum scree_rolling_resistance { SCREE_ROLLING_SPRINGS, SCREE_ROLLING_CONSTANT } scree_rolling_resistance;
+
 /// What a case says of it, under `contact` and of a material.
 typedef struct scree_mindlin_config {
     int tangential_history; ///< scree_tangential_history
+    int rolling_resistance; ///< scree_rolling_resistance
 } scree_mindlin_config;
 
 typedef struct scree_mindlin_material {
@@ -65,27 +71,23 @@ typedef struct scree_mindlin_material {
 /// Resistance to turning looks materials up even if there is only one.
 #define hertz_mindlin_KERNELS(row)                                                                                     \
     row(hertz_mindlin, 0, one) row(hertz_mindlin, 0, many) row(hertz_mindlin, 1, one) row(hertz_mindlin, 1, many)      \
-        row(hertz_mindlin, 2, many) row(hertz_mindlin, 3, many)
+        row(hertz_mindlin, 2, many) row(hertz_mindlin, 3, many) row(hertz_mindlin, 4, many)                            \
+            row(hertz_mindlin, 5, many)
 
 /// In 2D the history holds what the ledger reads, too; k_t is for the ledger alone where springs are not rescaled.
+#define MINDLIN_TRAITS(ledger_2d, ledger_3d, ...)                                                                      \
+    {                                                                                                                  \
+        .remembers = true, .for_ledger = {ledger_2d, ledger_3d}, .keeps_last_force = {false, true},                    \
+        .displacement = true, __VA_ARGS__                                                                              \
+    }
+#define MINDLIN_TURNS .rolling = true, .wide = true
 static const scree_law_traits hertz_mindlin_traits[] = {
-    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true},
-    [MINDLIN_RESCALED] = {.remembers = true,
-                          .for_ledger = {0xc, 0},
-                          .keeps_last_force = {false, true},
-                          .displacement = true},
-    [MINDLIN_ROLLING] = {.remembers = true,
-                         .for_ledger = {0xe, 0x8},
-                         .keeps_last_force = {false, true},
-                         .displacement = true,
-                         .rolling = true,
-                         .wide = true},
-    [MINDLIN_ROLLING | MINDLIN_RESCALED] = {.remembers = true,
-                                            .for_ledger = {0xc, 0},
-                                            .keeps_last_force = {false, true},
-                                            .displacement = true,
-                                            .rolling = true,
-                                            .wide = true},
+    [0] = MINDLIN_TRAITS(0xe, 0x8),
+    [MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0),
+    [MINDLIN_ROLLING] = MINDLIN_TRAITS(0xe, 0x8, MINDLIN_TURNS),
+    [MINDLIN_ROLLING | MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0, MINDLIN_TURNS),
+    [MINDLIN_CONSTANT] = MINDLIN_TRAITS(0xe, 0x8, MINDLIN_TURNS),
+    [MINDLIN_CONSTANT | MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0, MINDLIN_TURNS),
 };
 
 SCREE_INLINE bool is_rescaled(variant v)
@@ -145,7 +147,30 @@ SCREE_INLINE void slider_work(law_force *f, const slider *s)
     f->elastic_tangential += s->elastic;
 }
 
-/// Couple and energies of rolling and twisting resistance.
+/// Couple and energy of constant torques; what they remember stands in the rows of rolling.
+SCREE_INLINE void resist_constantly(variant v, const law_constants *constants, const kinematics *m, double step,
+                                    lanes normal, const law_memory *before, law_memory *after, law_force *f)
+{
+    const int dimension = v.dimension, count = tangential_count(dimension);
+    const lanes eta = constant_torque_viscosity(dimension, m->reduced_mass, step);
+    const vector rolled =
+        dimension == 2 ? (vector){.x = before->rolling[0]} : kinematics_carry(3, m, row_vector(before->rolling));
+    const constant_torque roll = constant_torque_resist(count, rolled, m->roll, m->dashpot_roll, step, eta,
+                                                        constants->value[HERTZ_ROLLING] * normal);
+    f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
+    f->friction += 0.5 * roll.friction;
+    after->rolling[0] = roll.resistance.x;
+    if (dimension == 2) return;
+    const constant_torque twist = constant_torque_resist(
+        1, (vector){.x = before->rolling[3]}, (vector){.x = m->twist}, (vector){.x = m->dashpot_twist}, step,
+        eta * (m->reduced_radius * m->reduced_radius), constants->value[HERTZ_TWISTING] * m->reduced_radius * normal);
+    f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
+    f->friction += 0.5 * twist.friction;
+    after->rolling[1] = roll.resistance.y, after->rolling[2] = roll.resistance.z;
+    after->rolling[3] = twist.resistance.x;
+}
+
+/// Couple and energies of rolling and twisting resistance by springs.
 SCREE_INLINE void resist_turning(variant v, const law_constants *constants, const kinematics *m, double step,
                                  lanes tangential_stiffness, lanes eta, lanes normal, lanes_bits touching,
                                  const law_memory *before, law_memory *after, law_force *f)
@@ -219,6 +244,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
         .elastic_normal = 0.4 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };
+    if (v.option & MINDLIN_CONSTANT) resist_constantly(v, constants, m, settings->step, normal, before, after, &f);
     if (v.option & MINDLIN_ROLLING)
         resist_turning(v, constants, m, settings->step, tangential_stiffness, eta, normal, touching, before, after, &f);
     return f;
