@@ -96,12 +96,15 @@ SCREE_INLINE adhesive_state adhesive_at(bool jkr, lanes stiffness, lanes root, l
                             stiffness * square * ((0.4 * s - root) * s + 0.375 * (root * root))};
 }
 
-/// Twice what is lost where a contact begins or ends in this step; a_before is zero where it was none.
+/// Twice what is lost where a contact begins or ends in this step; a_before is zero where it was none. What overlapped
+/// before the step has been placed so: it did not snap in, and the books began with its energy.
 SCREE_INLINE lanes adhesive_snap(const adhesive_state *now, const adhesive_state *before, lanes a, lanes a_before,
-                                 lanes way)
+                                 lanes overlap, lanes way)
 {
     const lanes_bits is = lanes_differ(a, lanes_all(0)), was = lanes_differ(a_before, lanes_all(0));
-    return lanes_keep(is ^ was, (now->force + before->force) * way - 2.0 * (now->energy - before->energy));
+    const lanes_bits apart = lanes_at_or_below(overlap - way, 1e-3 * lanes_abs(way));
+    return lanes_keep((is ^ was) & (was | apart),
+                      (now->force + before->force) * way - 2.0 * (now->energy - before->energy));
 }
 
 SCREE_INLINE law_force adhesive_contact(bool jkr, variant v, const law_constants *constants,
@@ -151,7 +154,7 @@ SCREE_INLINE law_force adhesive_contact(bool jkr, variant v, const law_constants
     if (v.ledger) {
         const lanes way = m->approach * settings->step;
         const adhesive_state last = adhesive_at(jkr, stiffness, root, inverse_radius, pull, a_before);
-        const lanes lost = adhesive_snap(&now, &last, a, a_before, way);
+        const lanes lost = adhesive_snap(&now, &last, a, a_before, m->overlap, way);
         f.damping = 0.5 * ((damping + damping_before) * way + slip.damping + lost);
     }
     if (v.option & ADHESIVE_CONSTANT) resist_constantly(springs, constants, m, settings->step, load, before, after, &f);
