@@ -230,10 +230,16 @@ static const scree_verb run_verbs[] = {
                     .value = "SNAPSHOT",
                     .meaning = "with --restart: continue from this snapshot, a number or `latest`, and drop what came "
                                "after it"},
+                   {.name = "after",
+                    .value = "DIR",
+                    .meaning = "begin behind the last stage that the case has in common with the run in DIR and that "
+                               "has ended there, with its rows and snapshots",
+                    .kind = SCREE_VALUE_FOLDER},
                    OPTION_QUIET},
         .example = {{"scree run biaxial --quick -o out", "a built-in case in a minute"},
                     {"scree run my.yaml -o out --set stages.compress.rate=1e-2 --threads 2", "one value changed"},
-                    {"scree run --restart out", "continue after an interrupt"}},
+                    {"scree run --restart out", "continue after an interrupt"},
+                    {"scree run longer.yaml --after out -o longer", "the same case with stages added or changed"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
         .function = scree_verb_run,
     },

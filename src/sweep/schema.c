@@ -125,6 +125,9 @@ static const scree_key root_keys[] = {
         .meaning = "The same with `quick`; 0: as many."),
     KEY(config, seed, SCREE_KEY_INTEGER, .standard = "1", FROM("0"), TO("9007199254000000"),
         .meaning = "Seed of the first realisation; the others follow."),
+    TEXT(config, share, "63", .standard = "",
+         .meaning = "A stage. Members whose cases are the same up to its end share what came out of it: the first of "
+                    "them runs it, the others go on from there."),
     PATHS(config, set, .meaning = "Key path and value of everything that all members change."),
     PATHS(config, quick_set, .meaning = "The same with `quick`, after `set`."),
     LIST(config, vary, vary_table, vary_count, .meaning = "The grid: every combination of these."),
