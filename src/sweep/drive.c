@@ -95,17 +95,18 @@ static scree_status write_case(const char *path, const char *text, scree_error *
     return scree_replace_finish(path, file, whole, error);
 }
 
-enum { MOST_ARGUMENTS = 32, NUMBER_TEXT = 32 };
+enum { MOST_ARGUMENTS = 32, NUMBER_TEXT = 48 };
 
 /// The process of a member that searches for a limit; it goes on by itself with what is there.
 static scree_status start_search(const drive *d, const scree_member_paths *paths, job *j, scree_error *error)
 {
     const scree_bisection *what = &d->sweep->bisection;
-    char threads[16], tolerance[NUMBER_TEXT], below[NUMBER_TEXT], above[NUMBER_TEXT];
+    char threads[16], tolerance[NUMBER_TEXT], below[NUMBER_TEXT], above[NUMBER_TEXT], target[NUMBER_TEXT];
     (void)snprintf(threads, sizeof threads, "%d", d->options->threads > 0 ? d->options->threads : 1);
     (void)snprintf(tolerance, sizeof tolerance, "%.9g", what->tolerance);
     (void)snprintf(below, sizeof below, "--below=%.17g", what->below);
     (void)snprintf(above, sizeof above, "--above=%.17g", what->above);
+    (void)snprintf(target, sizeof target, "--target=%.17g", what->target);
     const char *arguments[MOST_ARGUMENTS] = {
         d->options->program, "bisect",    paths->file,      "--output",  paths->folder,    "--key",
         what->key,           "--from",    what->between[0], "--to",      what->between[1], "--tolerance",
@@ -113,6 +114,7 @@ static scree_status start_search(const drive *d, const scree_member_paths *paths
     size_t count = 18;
     if (!isnan(what->below)) arguments[count++] = below;
     if (!isnan(what->above)) arguments[count++] = above;
+    if (!isnan(what->target)) arguments[count++] = target;
     if (what->curve[0]) arguments[count++] = "--curve";
     if (what->curve[0]) arguments[count++] = what->curve;
     if (!d->options->figures) arguments[count++] = "--no-figures";

@@ -182,6 +182,7 @@ static void keep_bisect(scree_reader *reader, scree_sweep *sweep)
                                          .measure = b->measure,
                                          .below = b->below,
                                          .above = b->above,
+                                         .target = b->target,
                                          .curve = b->curve};
     const scree_node *first = b->between ? b->between->first : NULL;
     if (!b->key || !b->key[0]) refuse_bisect(reader, "key", NULL, "says nothing about what is searched for");

@@ -75,6 +75,8 @@ static const scree_key bisect_keys[] = {
         .meaning = "A run stands only if the result is below this (in SI units); auto: no such bound."),
     KEY(bisect, above, SCREE_KEY_NUMBER, .unit = "1", .standard = "auto", FROM("-1e300"), TO("1e300"),
         .meaning = "A run stands only if the result is above this; auto: no such bound."),
+    KEY(bisect, target, SCREE_KEY_NUMBER, .unit = "1", .standard = "auto", FROM("-1e300"), TO("1e300"),
+        .meaning = "What the result has to be, within the tolerance; auto: bounds decide."),
     TEXT(bisect, curve, "63", .standard = "",
          .meaning = "Column of series.csv that figures/runs of a member shows over time, of runs near the limit."),
 };

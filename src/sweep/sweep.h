@@ -45,7 +45,7 @@ typedef struct scree_sweep_bisect {
     const scree_node *between;
     double tolerance;
     char *measure;
-    double below, above; ///< NAN: not given
+    double below, above, target; ///< NAN: not given
     char *curve;
 } scree_sweep_bisect;
 
