@@ -97,6 +97,12 @@ scree_status scree_adhesive_impact(bool jkr, const scree_pair_constants *pair, d
     return scree_impact_adhesive(&of, pair->value[HERTZ_DAMPING], effective_mass, speed, impact, error);
 }
 
+double scree_adhesive_tabor(const scree_pair_constants *pair, double effective_radius)
+{
+    const scree_adhesion of = contact_of(true, pair, effective_radius);
+    return scree_adhesion_tabor(&of);
+}
+
 double scree_adhesive_neck(const scree_pair_constants *pair, double effective_radius)
 {
     const scree_adhesion of = contact_of(true, pair, effective_radius);

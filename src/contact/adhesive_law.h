@@ -33,6 +33,7 @@ scree_contact_tangent scree_adhesive_tangent(bool jkr, const scree_pair_constant
                                              double effective_mass, double force);
 scree_status scree_adhesive_impact(bool jkr, const scree_pair_constants *pair, double effective_radius,
                                    double effective_mass, double speed, scree_impact *impact, scree_error *error);
+double scree_adhesive_tabor(const scree_pair_constants *pair, double effective_radius);
 double scree_adhesive_neck(const scree_pair_constants *pair, double effective_radius);
 
 extern const scree_elastic scree_elastic_jkr, scree_elastic_dmt;

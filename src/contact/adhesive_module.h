@@ -122,6 +122,7 @@ static const scree_choice rolling_resistances[] = {
                                   .bound = bound,                                                                      \
                                   .tangent = tangent,                                                                  \
                                   .impact = impact,                                                                    \
+                                  .tabor = scree_adhesive_tabor,                                                       \
                                   .impact_duration = true,                                                             \
                                   .confine_grains = 700,                                                               \
                                   __VA_ARGS__};                                                                        \

@@ -112,6 +112,8 @@ typedef struct scree_law {
     void (*amend)(const void *own, scree_pair_constants *pair);
     /// Gap [m] at which the neck of two bodies of an effective radius [m] breaks. NULL: without the trait `necks`.
     double (*neck)(const scree_pair_constants *pair, double effective_radius);
+    /// Tabor parameter of adhesion [1] of two bodies of an effective radius [m]; 0: they do not stick. NULL: none does.
+    double (*tabor)(const scree_pair_constants *pair, double effective_radius);
     /// Young's modulus [Pa] that would make grains of a material and radius [m] as stiff as they are, where its springs
     /// do not follow young_modulus; NAN where they do. NULL: they always do.
     double (*modulus)(const scree_contact_space *space, const scree_config_material *material, double radius);

@@ -15,6 +15,12 @@ double scree_adhesion_work(double stiffness, double root)
     return 3 * stiffness * root * root / (8 * M_PI);
 }
 
+double scree_adhesion_tabor(const scree_adhesion *of)
+{
+    const double range = 3e-10, ratio = scree_adhesion_work(of->stiffness, of->root) / (0.75 * of->stiffness);
+    return cbrt(of->radius * ratio * ratio) / range;
+}
+
 double scree_adhesion_pull_off(const scree_adhesion *of)
 {
     return (of->jkr ? 9.0 / 16 : 3.0 / 4) * of->root * of->root * of->stiffness * of->radius;

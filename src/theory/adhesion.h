@@ -19,6 +19,9 @@ typedef struct scree_adhesion {
 double scree_adhesion_root(double stiffness, double work);
 double scree_adhesion_work(double stiffness, double root);
 
+/// (R_eff w^2 / (Ebar^2 z_0^3))^(1/3), z_0 = 0.3 nm: JKR above about 5, DMT below about 0.1 (Tabor 1977).
+double scree_adhesion_tabor(const scree_adhesion *of);
+
 /// F_c [N], the largest pull; gap at which the contact ends [m].
 double scree_adhesion_pull_off(const scree_adhesion *of);
 double scree_adhesion_neck(const scree_adhesion *of);

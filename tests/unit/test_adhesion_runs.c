@@ -133,6 +133,43 @@ static void dmt_loses_nothing(void **unused)
     assert_true(fabs(o.residual) < 1e-5);
 }
 
+static void refuse(const char *override, const char *words, const char *field)
+{
+    const char *overrides[] = {"dimension=3", "particles.shape=sphere", override};
+    scree_case *c = case_read(impact_text, overrides, 3);
+    scree_simulation s;
+    scree_error error = {0};
+    assert_int_equal(scree_simulation_open(c, 1, &s, &error), SCREE_ERROR_INPUT);
+    if (!strstr(error.message, words)) fail_msg("%s", error.message);
+    assert_string_equal(error.field, field);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+static void cohesion_that_is_too_strong_is_refused(void **unused)
+{
+    (void)unused;
+    refuse("materials.0.surface_energy=50 J/m2", "cohesion too strong", "materials.0.surface_energy");
+    refuse("contact={law: hertz_jkr, work_of_adhesion: 100 J/m2}", "cohesion too strong", "materials.0.surface_energy");
+    refuse("integrator.step=1e-5 s", "the cohesion of this case counts", "integrator.step");
+}
+
+static void check_tells_the_tabor_parameter(void **unused)
+{
+    (void)unused;
+    const char *overrides[] = {"dimension=3", "particles.shape=sphere", "contact.law=hertz_mindlin"};
+    for (int k = 0; k < 2; k++) {
+        scree_case *c = case_read(impact_text, overrides, k ? 3 : 2);
+        scree_case_summary summary;
+        scree_error error;
+        check(scree_case_summarise(c, &summary, &error), &error);
+        // (25 um (0.1 / 0.5495 MPa)^2 / (0.3 nm)^3)^(1/3)
+        const double ebar = 1e6 / (2 * (1 - 0.09)), wanted = cbrt(25e-6 * pow(0.1 / ebar, 2)) / 3e-10;
+        assert_true(k ? isnan(summary.tabor) : fabs(summary.tabor / wanted - 1) < 1e-12);
+        scree_case_free(c);
+    }
+}
+
 // ---- below a ceiling -----------------------------------------------------------------------------------------------
 
 static const char ceiling_text[] = "scree: 1\n"
@@ -268,6 +305,8 @@ int main(void)
         cmocka_unit_test(slow_grains_stick),
         cmocka_unit_test(dashpots_take_their_part),
         cmocka_unit_test(dmt_loses_nothing),
+        cmocka_unit_test(cohesion_that_is_too_strong_is_refused),
+        cmocka_unit_test(check_tells_the_tabor_parameter),
         cmocka_unit_test(what_sticks_hangs_below_a_ceiling),
         cmocka_unit_test(nothing_but_the_state_decides),
     };
