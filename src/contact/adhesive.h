@@ -32,7 +32,7 @@
 #ifndef SCREE_CONTACT_ADHESIVE_H
 #define SCREE_CONTACT_ADHESIVE_H
 
-#include "contact/hertz_mindlin.h"
+#include "contact/mindlin.h"
 
 /// Constants of a pair, beside those of Hertz.
 enum { ADHESIVE_ROOT = 7 /* m^(1/2), B */ };

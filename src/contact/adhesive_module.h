@@ -62,13 +62,13 @@ static const scree_choice rolling_resistances[] = {
         ADHESIVE_FIELD(law, rolling, 3, 1, SCREE_TWISTING_TORQUE_FIELD, ADHESIVE_TORQUES, .only_dimension = 3)
 
 /// Everything of the file of a law; `...`: what its descriptor has beside.
-#define ADHESIVE_MODULE(law_, jkr, elastic_, meaning_, ...)                                                            \
-    static const scree_key contact_keys[] = {ADHESIVE_CONTACT_KEYS(law_)};                                             \
-    static const scree_key material_keys[] = {ADHESIVE_MATERIAL_KEYS(law_)};                                           \
-    static const scree_field fields[] = {ADHESIVE_FIELDS(law_)};                                                       \
+#define ADHESIVE(lawname, meaning_, jkr, elastic_, ...)                                                                \
+    static const scree_key contact_keys[] = {ADHESIVE_CONTACT_KEYS(lawname)};                                          \
+    static const scree_key material_keys[] = {ADHESIVE_MATERIAL_KEYS(lawname)};                                        \
+    static const scree_field fields[] = {ADHESIVE_FIELDS(lawname)};                                                    \
     static const scree_adhesive_material *own_material(const scree_config_material *section)                           \
     {                                                                                                                  \
-        return scree_config_own(&scree_module_##law_, "materials", section->own);                                      \
+        return scree_config_own(&scree_module_##lawname, "materials", section->own);                                   \
     }                                                                                                                  \
     static void rules(scree_reader *reader, const scree_config *config)                                                \
     {                                                                                                                  \
@@ -110,8 +110,8 @@ static const scree_choice rolling_resistances[] = {
         (void)use;                                                                                                     \
         return scree_adhesive_impact(jkr, pair, radius, mass, speed, result, error);                                   \
     }                                                                                                                  \
-    static const scree_law law = {.traits = law_##_traits,                                                             \
-                                  .option_count = sizeof law_##_traits / sizeof *law_##_traits,                        \
+    static const scree_law law = {.traits = lawname##_traits,                                                          \
+                                  .option_count = sizeof lawname##_traits / sizeof *lawname##_traits,                  \
                                   .elastic = &(elastic_),                                                              \
                                   .constant_count = ADHESIVE_ROOT + 1,                                                 \
                                   .resistances = 1U << SCREE_FRICTION | 1U << HERTZ_ROLLING | 1U << HERTZ_TWISTING,    \
@@ -126,8 +126,8 @@ static const scree_choice rolling_resistances[] = {
                                   .impact_duration = true,                                                             \
                                   .confine_grains = 700,                                                               \
                                   __VA_ARGS__};                                                                        \
-    const scree_module scree_module_##law_ = {                                                                         \
-        .name = #law_,                                                                                                 \
+    const scree_module scree_module_##lawname = {                                                                      \
+        .name = #lawname,                                                                                              \
         .meaning = meaning_,                                                                                           \
         .choice_of = CHOICE_OF(IS("contact.law"), IS("contact.pairs.law")),                                            \
         .keys = (const scree_keys[]){KEYS_OF("contact", contact_keys, scree_adhesive_config, .after = "law"),          \

@@ -3,7 +3,5 @@
 
 #include "contact/adhesive_module.h"
 
-ADHESIVE_MODULE(hertz_dmt, false, scree_elastic_dmt,
-                "Hertz with the adhesion of Derjaguin, Muller and Toporov: stiff grains that pull with a constant "
-                "force while they touch; springs, friction and damping as hertz_mindlin",
-                .neck = NULL);
+ADHESIVE(hertz_dmt, "Hertz with the adhesion of Derjaguin, Muller and Toporov: stiff grains, a constant pull", false,
+         scree_elastic_dmt, .neck = NULL);
