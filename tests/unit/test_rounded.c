@@ -253,6 +253,8 @@ static void pairs_on_each_other(void **unused)
     near(m.overlap, d, 1e-14);
     near(m.gain, 1, 1e-15);
     near(m.lever_second.x, 0, 1e-14);
+    near(m.lever_first.y, a / 2 + r - d / 2, 1e-14);
+    near(m.lever_second.y, -0.5 + d / 2, 1e-14);
     other.x = a / 2 + (r + 0.5 - d) * M_SQRT1_2;
     other.y = a / 2 + (r + 0.5 - d) * M_SQRT1_2;
     m = pair_at(&one, &other, 0, 0);
@@ -277,6 +279,9 @@ static void cores_that_meet_are_told(void **unused)
     other.angle = 0.5 * M_PI;
     assert_true(isinf(pair_at(&bar, &other, 0, 0).overlap));
     other.y = 1.05;
+    assert_true(isinf(pair_at(&bar, &other, 0, 0).overlap));
+    // The end comes out at the far side, its corners in range of the edge that it has passed.
+    other.y = -0.895;
     assert_true(isinf(pair_at(&bar, &other, 0, 0).overlap));
     other.y = 1.119;
     near(pair_at(&bar, &other, 0, 0).overlap, M_SQRT2 * 1e-3, 1e-14);
