@@ -10,6 +10,7 @@
 #include "state/fields.h"
 #include "state/sleep.h"
 
+#include <limits.h>
 #include <sleef.h>
 #include <string.h>
 
@@ -68,15 +69,24 @@ static const char *wrong_outline(const config *c)
 {
     static _Thread_local scree_error why;
     if (!c->corners) return NULL; // missing, and noted
-    const int count = c->corner_count > SCREE_POLYGON_CORNERS ? SCREE_POLYGON_CORNERS + 1 : (int)c->corner_count;
+    const int count = c->corner_count > INT_MAX ? INT_MAX : (int)c->corner_count;
     return scree_polygon_check(count, (const double(*)[2])c->corners, &why) ? why.message : NULL;
+}
+
+/// Whether there are numbers that could not be read, and are noted.
+static bool is_unreadable(const config *c)
+{
+    bool all = true;
+    for (int64_t k = 0; c->corners && k < c->corner_count; k++)
+        all = all && isfinite(c->corners[k][0]) && isfinite(c->corners[k][1]);
+    return !all;
 }
 
 static const char *wrong(const void *said, const char **key)
 {
     const config *c = said;
     *key = "corners";
-    if (c->outline == GIVEN) return wrong_outline(c);
+    if (c->outline == GIVEN) return is_unreadable(c) ? NULL : wrong_outline(c);
     *key = "corners_max";
     return c->corners_max < c->corners_min ? "is less than corners_min" : NULL;
 }
