@@ -25,7 +25,7 @@
 /// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order: those that are
 /// evaluated in lanes, and those of which pairs are evaluated one at a time.
 #define SCREE_GEOMETRIES_IN_LANES(row)   row(round)
-#define SCREE_GEOMETRIES_ONE_BY_ONE(row) row(outlines)
+#define SCREE_GEOMETRIES_ONE_BY_ONE(row) row(outlines) row(rounded)
 #define SCREE_GEOMETRIES(row)            SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
 
 /// Shapes of particles, in the order in which the case reference lists them.
