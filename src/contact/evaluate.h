@@ -149,6 +149,7 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         q.settle = f.settle;
         q.count = -f.in_contact;
     }
+    if (law_necks(v)) q.count = -f.in_contact;
     if (law_rolls(v)) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);

@@ -71,12 +71,12 @@ static kinematics lie_beside(const scree_surface *surface, variant v, const bodi
     return geometry_against(v, seen, &outline, apart, step);
 }
 
-/// Whether the body reaches its closest point, and if only kinematics tell, the wall.
+/// Whether the body reaches its closest point, or a neck of this reach [m] may, and if only kinematics tell, the wall.
 static bool touches_primitive(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
-                              const scree_closest_point *closest)
+                              const scree_closest_point *closest, double reach)
 {
     const scree_surface *surface = contact_surface_of(wall_set, primitive);
-    const double radius = wall_reach(v.dimension, body->radius, closest->normal, body->stretch);
+    const double radius = wall_reach(v.dimension, body->radius, closest->normal, body->stretch) + reach;
     if (has_outline(v, surface) ? closest->distance >= radius
                                 : !scree_closest_point_touches(wall_set, primitive, closest, radius))
         return false;
@@ -96,7 +96,9 @@ void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, 
     for (size_t p = begin; p < end; p++) {
         primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
         scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
-        if (touches_primitive(wall_set, pairs->wall[p], v, body, &touch.closest)) insert(touches, &touch);
+        const memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
+        const double reach = pairs->reach > 0 && !memory_is_clear(&rows) ? pairs->reach : 0;
+        if (touches_primitive(wall_set, pairs->wall[p], v, body, &touch.closest, reach)) insert(touches, &touch);
     }
     merge(wall_set, touches);
 }

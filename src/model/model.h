@@ -187,6 +187,14 @@ static inline bool scree_model_predicts(const scree_model *model)
     return ahead;
 }
 
+/// Gap [m] beyond which no neck of two bodies reaches (the trait `necks` of laws); 0: there are none.
+static inline double scree_model_reach(const scree_model *model)
+{
+    double reach = 0;
+    for (int k = 0; k < scree_model_law_count(model); k++) reach = fmax(reach, scree_law_use_reach(&model->laws[k]));
+    return reach;
+}
+
 /// Normal stiffness [N/m] of a contact of two mean particles under the force pressure x diameter x depth.
 double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth);
 

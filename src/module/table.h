@@ -18,7 +18,7 @@
 #define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
-#define SCREE_LAWS_OF_OVERLAPS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
+#define SCREE_LAWS_OF_OVERLAPS(row) row(hertz_brilliantov) row(hertz_mindlin) row(hertz_jkr) row(hertz_dmt) row(linear)
 #define SCREE_LAWS_OF_AREAS(row)    row(polygon_overlap) row(polygon_potential)
 #define SCREE_LAWS(row)             SCREE_LAWS_OF_OVERLAPS(row) SCREE_LAWS_OF_AREAS(row)
 
