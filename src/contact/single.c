@@ -95,7 +95,7 @@ static bool describe(variant v, pair_law of, const scree_member_row *own, kinema
     law_constants c = constants_get(of.constants, own);
     law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(v, memory), after;
-    law_force f = law_evaluate(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
+    law_force f = contact_law(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
     describe_tangent(v.dimension, m, &f, contact);
     double load = f.normal + f.adhesion, cap = of.constants->value[SCREE_FRICTION] * load;
     contact->held = own != NULL;
@@ -169,7 +169,7 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
     law_constants constants = constants_get(of.constants, own);
     law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(e.variant, memory);
-    e.force = law_evaluate(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
+    e.force = contact_law(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
     e.quanta =
         contact_evaluate(e.variant, &constants, &settings, &scale, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
     return e;

@@ -54,21 +54,21 @@ static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
     touches->count = kept;
 }
 
-/// Whether laws of areas take the outline of this wall in place of its closest point.
+/// Whether the geometry takes the outline of this wall in place of its closest point.
 static bool has_outline(variant v, const scree_surface *surface)
 {
-    return surface->corner_count > 0 && geometry_has_areas(v);
+    return surface->corner_count > 0 && geometry_takes_solids(v);
 }
 
-/// Normal, overlap and levers; and, of laws of areas, how they move in `step`. seen: as it moves in the frame of the
-/// wall.
+/// Normal, overlap and levers; and, of geometries with levers, how they move in `step`. seen: as it moves in the frame
+/// of the wall.
 static kinematics lie_beside(const scree_surface *surface, variant v, const bodies *seen,
                              const scree_closest_point *closest, double step)
 {
     if (!has_outline(v, surface)) return geometry_beside(v, seen, closest->normal, closest->distance, step);
     const scree_polygon outline = scree_surface_outline(surface);
     const double apart[2] = {surface->centre[0] - seen->position.x, surface->centre[1] - seen->position.y};
-    return geometry_against(seen, &outline, apart, step);
+    return geometry_against(v, seen, &outline, apart, step);
 }
 
 /// Whether the body reaches its closest point, or a neck of this reach [m] may, and if only kinematics tell, the wall.

@@ -318,40 +318,101 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
-/// Geometry of the contacts of two shapes, under laws of areas or not: its number among the geometries, in their order.
-static int geometry_of(const scree_shape *one, const scree_shape *other, bool areas)
+/// Whether a geometry serves all pairs of shapes of a case.
+static bool serves_all(const scree_geometry *geometry, const scree_config_particles *particles)
 {
-    int number = 0, found = -1;
+    bool all = true;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++)
+        for (int64_t t = 0; t <= s; t++)
+            all = all && geometry->serves(scree_modules[scree_config_shape(particles, s)]->shape,
+                                          scree_modules[scree_config_shape(particles, t)]->shape);
+    return all;
+}
+
+/// Geometry of all contacts, under laws of areas or not: its number among the geometries, in their order; -1: none.
+static int geometry_of(const scree_config_particles *particles, bool areas, const scree_geometry **chosen)
+{
+    int number = 0;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
-        const scree_geometry *geometry = scree_modules[m]->geometry;
-        if (!geometry) continue;
-        if (found < 0 && geometry->traits->areas == areas && geometry->serves(one, other)) found = number;
+        *chosen = scree_modules[m]->geometry;
+        if (!*chosen) continue;
+        if ((*chosen)->traits->areas == areas && serves_all(*chosen, particles)) return number;
         number++;
     }
-    return found;
+    return -1;
+}
+
+/// Names of the laws that are of areas, or of those that are not.
+static void list_laws(bool areas, char list[256])
+{
+    list[0] = 0;
+    for (int m = 0, length = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->law && scree_modules[m]->law->traits[0].areas == areas)
+            length +=
+                snprintf(list + length, 256 - (size_t)length, "%s%s", length > 0 ? ", " : "", scree_modules[m]->name);
+}
+
+/// Rounded corners go with laws of springs, sharp ones with laws of areas.
+static scree_status check_rounding(const scree_model *model, bool areas, scree_error *error)
+{
+    const scree_config_particles *particles = &model->config->particles;
+    const char *law = scree_modules[model->laws[0].law]->name;
+    char others[256];
+    list_laws(!areas, others);
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++) {
+        const scree_shape *shape = scree_modules[scree_config_shape(particles, s)]->shape;
+        if (!shape->rounding) continue;
+        const double rounding = shape->rounding(scree_config_shape_keys(particles, s));
+        if (areas && rounding > 0)
+            return FIELD_ERROR(error, "particles.rounding",
+                               "law %s takes the area that two outlines share, and knows sharp corners alone: leave "
+                               "rounding out, or take contact.law %s",
+                               law, others);
+        if (!areas && !(rounding > 0))
+            return FIELD_ERROR(error, "contact.law",
+                               "law %s has no meaning for polygons with sharp corners: give particles.rounding (0.1, "
+                               "say), or take one of the laws of areas: %s",
+                               law, others);
+    }
+    return SCREE_OK;
 }
 
 static scree_status resolve_geometry(scree_model *model, scree_error *error)
 {
     const bool areas = scree_model_traits(model)->areas;
-    const scree_config_particles *particles = &model->config->particles;
+    const scree_geometry *chosen;
     for (int k = 1; k < scree_model_law_count(model); k++)
         if (scree_law_use_traits(&model->laws[k])->areas != areas)
             return FIELD_ERROR(error, "contact.pairs", "laws of areas and others do not go together in one case");
-    model->geometry = 0;
-    for (int64_t s = 0; s < scree_config_species_count(particles) && model->geometry >= 0; s++)
-        for (int64_t t = 0; t <= s && model->geometry >= 0; t++)
-            model->geometry = geometry_of(scree_modules[scree_config_shape(particles, s)]->shape,
-                                          scree_modules[scree_config_shape(particles, t)]->shape, areas);
-    if (model->geometry >= 0) return SCREE_OK;
-    char others[256] = "";
-    for (int m = 0, length = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->law && scree_modules[m]->law->traits[0].areas != areas)
-            length += snprintf(others + length, sizeof others - (size_t)length, "%s%s", length > 0 ? ", " : "",
-                               scree_modules[m]->name);
+    model->geometry = geometry_of(&model->config->particles, areas, &chosen);
+    model->largest_gain = model->geometry >= 0 && chosen->traits->gains ? SCREE_LARGEST_GAIN : 1;
+    if (model->geometry >= 0) return check_rounding(model, areas, error);
+    char others[256];
+    list_laws(!areas, others);
     return FIELD_ERROR(error, "contact.law",
                        "law %s has no meaning for particles of these shapes; those that may are: %s",
                        scree_modules[model->laws[0].law]->name, others);
+}
+
+/// What geometries with gains do not know: bonds, bodies whose surfaces move, friction that asks for the coming step.
+static scree_status check_gains(const scree_model *model, scree_error *error)
+{
+    if (!(model->largest_gain > 1)) return SCREE_OK;
+    for (int64_t i = 0; i < model->config->stage_count; i++)
+        if (scree_modules[model->config->stages[i].kind]->numbers->bonds)
+            return FIELD_ERROR(error, "stages", "bonds hold discs and spheres together: rounded polygons have none");
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_law_traits *traits = scree_law_use_traits(&model->laws[k]);
+        if (traits->deforms)
+            return FIELD_ERROR(error, "particles.rounding", "polygons are rigid: particles that deform are discs");
+        if (traits->looks_ahead)
+            return FIELD_ERROR(
+                error, "contact.friction_update",
+                "the implicit friction of law %s is that of discs: polygons need contact.friction_update: "
+                "explicit, or another law",
+                scree_modules[model->laws[k].law]->name);
+    }
+    return SCREE_OK;
 }
 
 static scree_status resolve_law(scree_model *model, scree_error *error)
@@ -524,6 +585,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_law(model, error);
     if (!status) status = resolve_loading(model, error);
+    if (!status) status = check_gains(model, error);
     if (!status) resolve_persistent(model);
     if (!status) status = check_cohesion(model, error);
     if (!status) status = resolve_step(model, error);

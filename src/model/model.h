@@ -87,6 +87,7 @@ struct scree_model {
     double density[SCREE_MAX_MATERIALS];
     scree_upkeep upkeep;
     scree_servo_limits servo;
+    double largest_gain;  ///< 1, that the geometry of contacts can have (contact/kinematics.h); 1, or 0: it has none
     double overlap_limit; ///< 1, largest overlap over the smaller radius
     double energy_growth; ///< 1, largest residual of the ledger over all energy that there is and was
     bool stability_warns; ///< above a limit of stability a run goes on with a warning
