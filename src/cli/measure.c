@@ -23,6 +23,8 @@ scree_status scree_verb_measure(const scree_command *command)
                                      .at = scree_command_value(command, "at"),
                                      .from = scree_command_value(command, "from"),
                                      .fit = scree_command_value(command, "fit"),
+                                     .sizes = scree_command_value(command, "sizes"),
+                                     .mirror = scree_command_has(command, "mirror"),
                                      .axis = scree_command_value(command, "axis"),
                                      .output = scree_command_value(command, "output"),
                                      .no_figures = scree_command_has(command, "no-figures"),

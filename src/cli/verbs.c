@@ -406,12 +406,14 @@ static const scree_verb run_verbs[] = {
             "dip of the vertical pressure, 1 - its value on the axis over its largest, with its interval and p, a pile "
             "and its mirror image being one sample.\n\n"
             "Writes `values.csv`, `cuts.csv`, `map.csv`, `kernel.csv`, `forces.csv`, `friction.csv`, `rose.csv`, "
-            "`dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md lists the columns, "
+            "`sizes.csv`, `scatter.csv`, `dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md "
+            "lists the columns, "
             "docs/theory/averages.md has the definitions. Stresses are tension positive, pressures the opposite.",
         .argument = {{"RUN", "folder of a finished run; several are an ensemble", SCREE_VALUE_FOLDER, false, true}},
         .option = {{.name = "fields",
                     .value = "NAME,...",
-                    .meaning = "density, coordination, stress, fabric, inertia, velocity, elastic (with --from)",
+                    .meaning = "density, coordination, stress, fabric, inertia, velocity, kinetic (stress of the "
+                               "motion), elastic (with --from)",
                     .preset = "density,coordination,stress,fabric"},
                    {.name = "cuts",
                     .value = "N|HEIGHTS",
@@ -434,6 +436,11 @@ static const scree_verb run_verbs[] = {
                     .value = "NXxNY[xNZ]",
                     .meaning = "a map of so many elements, which may overlap; in 3D of two numbers the second is along "
                                "z, in the middle of y"},
+                   {.name = "sizes",
+                    .value = "N,...",
+                    .meaning = "elements of so many grains about one place on the axis near the bottom, such as "
+                               "5,10,20,50,100,200,400,800: how many grains make an average"},
+                   {.name = "mirror", .meaning = "cuts of each run are means of it and of its mirror image"},
                    {.name = "kernel",
                     .value = "WIDTH",
                     .meaning = "smooth fields, at the points of --grid or 100x50 (50x50x50): radius of the support of "
@@ -445,7 +452,11 @@ static const scree_verb run_verbs[] = {
                         "the mean over its snapshots, or over the last N",
                     .preset = "end"},
                    {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
-                   {.name = "threads", .letter = 't', .value = "N", .meaning = "for --kernel", .preset = "1"},
+                   {.name = "threads",
+                    .letter = 't',
+                    .value = "N",
+                    .meaning = "that find elements and smooth fields",
+                    .preset = "1"},
                    {.name = "output",
                     .letter = 'o',
                     .value = "DIR",

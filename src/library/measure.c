@@ -43,6 +43,21 @@ static scree_status find_means(const measure_tables *each, size_t count, measure
     return status;
 }
 
+/// What elements of each size scatter by from run to run.
+static scree_status find_scatter(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
+{
+    scree_average_table *same;
+    if (count < 2 || each[0].of[MEASURE_SIZES].rows == 0) return SCREE_OK;
+    scree_status status = scree_allocate(&same, count, sizeof *same, error);
+    for (size_t i = 0; i < count && !status; i++) same[i] = each[i].of[MEASURE_SIZES];
+    if (!status) status = scree_average_sizes_scatter(same, count, &found->mean.of[MEASURE_SCATTER], error);
+    for (int k = 0; k < SCREE_AVERAGE_SIZED && !status; k++)
+        scree_average_sizes_exponent(same, count, k, &found->exponent[k][0], &found->exponent[k][1],
+                                     &found->exponent[k][2]);
+    scree_release(&same);
+    return status;
+}
+
 /// Profiles of a column of a cut, run by run, over the elements of which at least a given part lies in the sample.
 /// Those of the pressure of an ensemble are scaled by what a pile without voids of its bulk density and height would
 /// bear, where there is gravity, so that piles of other sizes weigh alike.
@@ -158,6 +173,7 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < count && !status; k++) status = measure_run(runs[k], plan, &each[k], error);
     if (!status) status = find_means(each, count, found, error);
+    if (!status) status = find_scatter(each, count, found, error);
     if (!status) status = find_dips(each, count, plan, found, error);
     if (!status && plan->fits > 0) status = measure_fit(each, count, plan, found, error);
     return status;

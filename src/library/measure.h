@@ -5,6 +5,7 @@
 #include "average/cuts.h"
 #include "average/dip.h"
 #include "average/kernel.h"
+#include "average/sizes.h"
 #include "io/sample_file.h"
 #include "theory/fit.h"
 
@@ -19,6 +20,8 @@ typedef enum measure_product {
     MEASURE_FORCES,
     MEASURE_FRICTION,
     MEASURE_ROSE,
+    MEASURE_SIZES,
+    MEASURE_SCATTER, ///< of an ensemble alone
     MEASURE_PRODUCTS
 } measure_product;
 
@@ -76,10 +79,11 @@ typedef struct measure_tables {
 typedef struct measure_found {
     size_t runs;
     measure_tables mean, low, high;
-    scree_average_dip *dip;        ///< a cut; NULL: no stress along cuts
-    scree_average_dip *strain_dip; ///< the same of the vertical strain; NULL: no elastic constants
-    measure_fits *fits;            ///< NULL: none was asked for
-    double dip_height;             ///< 1, relative height above which no dip is significant; NAN with one run
+    scree_average_dip *dip;                  ///< a cut; NULL: no stress along cuts
+    scree_average_dip *strain_dip;           ///< the same of the vertical strain; NULL: no elastic constants
+    measure_fits *fits;                      ///< NULL: none was asked for
+    double exponent[SCREE_AVERAGE_SIZED][3]; ///< of the scatter of the tensors against the size, with its interval
+    double dip_height;                       ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;
 
 /// Reads the options. Errors: SCREE_ERROR_INPUT with the option as field.
@@ -109,6 +113,9 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
 
 /// Draws it. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
+
+/// Draws averages against the size of their elements. Errors: SCREE_ERROR_IO; memory.
+scree_status measure_draw_sizes(const char *folder, const measure_found *found, scree_error *error);
 
 /// Draws elements as points in the plane of two of their numbers, where there are elastic constants. Errors:
 /// SCREE_ERROR_IO; memory.

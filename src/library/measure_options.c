@@ -33,7 +33,7 @@ static bool read_number(const char *text, double *value)
 
 static scree_status read_fields(const char *text, unsigned *fields, scree_error *error)
 {
-    const char *accepted = "density, coordination, stress, fabric, inertia, velocity, elastic";
+    const char *accepted = "density, coordination, stress, fabric, inertia, velocity, elastic, kinetic";
     *fields = 0;
     for (const char *at = text; *at;) {
         const size_t length = strcspn(at, ",");
@@ -70,6 +70,23 @@ static scree_status read_cuts(const char *text, scree_average_plan *plan, scree_
         at = end + (*end == ',');
     }
     return plan->cuts > 0 ? SCREE_OK : refuse(error, "cuts", accepted, "no cut is named");
+}
+
+static scree_status read_sizes(const char *text, scree_average_plan *plan, scree_error *error)
+{
+    const char *accepted = "numbers of grains that grow, with commas, such as 5,10,20,50,100,200,400,800; up to 32";
+    plan->sizes = 0;
+    for (const char *at = text; *at;) {
+        char *end;
+        const double value = strtod(at, &end);
+        const double last = plan->sizes > 0 ? plan->size[plan->sizes - 1] : 0;
+        if (end == at || (*end && *end != ',') || !(value >= 1 && value > last && value < 1e12) ||
+            plan->sizes == SCREE_AVERAGE_SIZES)
+            return refuse(error, "sizes", accepted, "'%s' says no sizes of elements", text);
+        plan->size[plan->sizes++] = value;
+        at = end + (*end == ',');
+    }
+    return plan->sizes > 0 ? SCREE_OK : refuse(error, "sizes", accepted, "no size is named");
 }
 
 /// Names of theories; `wedge` are all four of them.
@@ -164,6 +181,8 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
     if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
     if (!status && options->element) status = read_element(options->element, &plan->average, error);
     if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);
+    if (!status && options->sizes) status = read_sizes(options->sizes, &plan->average, error);
+    plan->average.threads = options->threads;
     if (!status && options->kernel) status = read_kernel(options->kernel, plan, error);
     if (!status && options->fit) status = read_fits(options->fit, plan, error);
     if (!status) status = read_axis(options->axis ? options->axis : "mass", &plan->average, error);

@@ -4,6 +4,7 @@
 #include "average/chains.h"
 #include "average/force_statistics.h"
 #include "average/increment.h"
+#include "average/profile.h"
 #include "base/units.h"
 
 #include <math.h>
@@ -159,9 +160,14 @@ static scree_status measure_view(scree_average_sample *before, scree_average_sam
                                  const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
                                  scree_error *error)
 {
-    scree_average_table *values = &tables->of[MEASURE_VALUES];
-    scree_status status = scree_average_table_begin_row(values, error);
+    scree_average_table *values = &tables->of[MEASURE_VALUES], *cuts = &tables->of[MEASURE_CUTS];
+    scree_status status = scree_average_cuts_table(view, &plan->average, cuts, error);
+    if (!status) status = scree_average_table_begin_row(values, error);
     if (!status) tell_whole(view, values);
+    if (!status) scree_average_profile_tell(cuts, plan->average.points, scree_average_table_take, values);
+    if (!status && plan->options->mirror) scree_average_profile_mirror(cuts, plan->average.points);
+    if (!status) scree_average_profile_forces(view, scree_average_table_take, values);
+    if (!status && plan->average.sizes > 0) scree_average_sizes_tell(view, scree_average_table_take, values);
     if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
     if (!status) status = tell_chains(sample, plan, values, error);
     if (!status)
@@ -169,7 +175,8 @@ static scree_status measure_view(scree_average_sample *before, scree_average_sam
                                  error);
     if (!status && plan->kernel) status = measure_kernel(before, sample, view, plan, tables, error);
     if (!status) status = scree_average_table_end_row(values, error);
-    if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);
+    if (!status && plan->average.sizes > 0)
+        status = scree_average_sizes_table(view, &plan->average, &tables->of[MEASURE_SIZES], error);
     if (!status && plan->average.grid[0] > 0)
         status = scree_average_map_table(view, &plan->average, &tables->of[MEASURE_MAP], error);
     if (!status) status = scree_average_forces_table(sample, &tables->of[MEASURE_FORCES], error);
@@ -209,6 +216,12 @@ static scree_status move(const char *directory, const scree_snapshot_mark *from,
     return status ? status : scree_average_move(sample, before, error);
 }
 
+/// m, by which kernels reach out of a cell.
+static double margin_of(const measure_plan *plan, const scree_average_sample *sample)
+{
+    return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius) + 4 * sample->mean_radius;
+}
+
 /// frame: where places are, found by the first one of several; NULL: there is one.
 static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
                                      const scree_snapshot_mark *from, const measure_plan *plan, bool first,
@@ -225,10 +238,9 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
     // Kernels reach out of a periodic cell as far as they are wide, branches included.
-    if (!status && own.kernel)
-        status = scree_average_sample_repeat(
-            &sample, fmax(own.kernel_width, 2 * own.kernel_diameters * sample.mean_radius) + 4 * sample.mean_radius,
-            error);
+    if (!status && own.kernel) status = scree_average_sample_repeat(&sample, margin_of(&own, &sample), error);
+    if (!status && own.kernel && before.own)
+        status = scree_average_sample_repeat(&before, margin_of(&own, &sample), error);
     if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
     if (!status) {
         if (first && frame) *frame = view.frame;
