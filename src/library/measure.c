@@ -43,6 +43,20 @@ static scree_status find_means(const measure_tables *each, size_t count, measure
     return status;
 }
 
+/// A mean over some of the runs alone is not that of the others: a size that does not fit in one has none.
+static void leave_out(const scree_average_table *sizes, size_t count, measure_found *found)
+{
+    scree_average_table *const all[] = {&found->mean.of[MEASURE_SIZES], &found->low.of[MEASURE_SIZES],
+                                        &found->high.of[MEASURE_SIZES]};
+    for (size_t row = 0; row < sizes->rows; row++)
+        for (size_t i = 0; i < count; i++) {
+            if (isfinite(scree_average_table_get(&sizes[i], row, 2))) continue;
+            for (size_t t = 0; t < 3; t++)
+                for (size_t k = 2; k < all[t]->columns && row < all[t]->rows; k++)
+                    all[t]->value[row * all[t]->columns + k] = NAN;
+        }
+}
+
 /// What elements of each size scatter by from run to run.
 static scree_status find_scatter(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
 {
@@ -50,6 +64,7 @@ static scree_status find_scatter(const measure_tables *each, size_t count, measu
     if (count < 2 || each[0].of[MEASURE_SIZES].rows == 0) return SCREE_OK;
     scree_status status = scree_allocate(&same, count, sizeof *same, error);
     for (size_t i = 0; i < count && !status; i++) same[i] = each[i].of[MEASURE_SIZES];
+    if (!status) leave_out(same, count, found);
     if (!status) status = scree_average_sizes_scatter(same, count, &found->mean.of[MEASURE_SCATTER], error);
     for (int k = 0; k < SCREE_AVERAGE_SIZED && !status; k++)
         scree_average_sizes_exponent(same, count, k, &found->exponent[k][0], &found->exponent[k][1],
