@@ -18,7 +18,7 @@ typedef struct scree_measure_options {
     const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity,elastic,kinetic", or some of them;
                          ///< elastic needs `from`
     const char *cuts;    ///< "5", a number of cuts, or "0,0.25,0.5", their relative heights
-    const char *element; ///< "150", grains in an element, or "30 mm", its side
+    const char *element; ///< "150", grains in an element, "10 %", a part of all, or "30 mm", its side
     const char *grid;    ///< "100x50", points of a map; in 3D x and z in the middle of y, or "20x20x20"
     const char *kernel;  ///< "15 mm", radius of the support of smooth fields, or "3", in mean diameters
     const char *sizes;   ///< "5,10,20,50,100,200,400,800", grains of elements about one place: how many make an average

@@ -60,6 +60,7 @@ enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
 typedef struct measure_plan {
     scree_average_plan average;
     bool element_given, kernel;
+    double share;            ///< of the grains of a run in an element, 0: the average says
     double kernel_width;     ///< m, 0: kernel_diameters
     double kernel_diameters; ///< mean diameters
     const char *at, *from;

@@ -112,10 +112,15 @@ static scree_status read_fits(const char *text, measure_plan *plan, scree_error 
     return plan->fits > 0 ? SCREE_OK : refuse(error, "fit", accepted, "no theory is named");
 }
 
-static scree_status read_element(const char *text, scree_average_plan *plan, scree_error *error)
+static scree_status read_element(const char *text, measure_plan *whole, scree_error *error)
 {
-    const char *accepted = "a number of grains, such as 150, or a length, such as 30 mm";
+    const char *accepted = "a number of grains, such as 150, a part of all, such as 10 %, or a length, such as 30 mm";
+    scree_average_plan *plan = &whole->average;
     scree_error problem = {0};
+    const size_t length = strlen(text);
+    if (length > 1 && text[length - 1] == '%' && !scree_units_parse(text, "1", &whole->share, &problem))
+        return whole->share > 0 && whole->share < 1 ? SCREE_OK
+                                                    : refuse(error, "element", accepted, "'%s' is no part", text);
     if (read_number(text, &plan->grains))
         return plan->grains >= 1 ? SCREE_OK : refuse(error, "element", accepted, "'%s' are no grains", text);
     if (scree_units_parse(text, "m", &plan->side, &problem) || !(plan->side > 0))
@@ -179,7 +184,7 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
         status = refuse(error, "fields", "elastic with --from: start, #N, or a stage",
                         "elastic constants need two states of the run: say the earlier one");
     if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
-    if (!status && options->element) status = read_element(options->element, &plan->average, error);
+    if (!status && options->element) status = read_element(options->element, plan, error);
     if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);
     if (!status && options->sizes) status = read_sizes(options->sizes, &plan->average, error);
     plan->average.threads = options->threads;

@@ -235,6 +235,7 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     if (status) return status;
     status = move(directory, from, plan, &before, &sample, error);
     if (!status) status = scree_average_sample_finish(&sample, error);
+    if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample.counted);
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
     // Kernels reach out of a periodic cell as far as they are wide, branches included.
