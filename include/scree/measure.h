@@ -29,6 +29,7 @@ typedef struct scree_measure_options {
     const char *axis;   ///< "mass", "apex", or a place, "0 mm"
     long points;        ///< places along a cut
     int threads;        ///< that find elements and smooth fields
+    bool two_slopes;    ///< fits do not fold piles about their axis: left and right slopes of their own
     bool mirror;        ///< cuts are means of each run and its mirror image about the axis
     const char *output; ///< folder; "measure" in that of the run, or where it is called with several runs
     bool no_figures;

@@ -24,6 +24,7 @@ scree_status scree_verb_measure(const scree_command *command)
                                      .from = scree_command_value(command, "from"),
                                      .fit = scree_command_value(command, "fit"),
                                      .sizes = scree_command_value(command, "sizes"),
+                                     .two_slopes = scree_command_has(command, "two-slopes"),
                                      .mirror = scree_command_has(command, "mirror"),
                                      .axis = scree_command_value(command, "axis"),
                                      .output = scree_command_value(command, "output"),

@@ -440,6 +440,8 @@ static const scree_verb run_verbs[] = {
                     .value = "N,...",
                     .meaning = "elements of so many grains about one place on the axis near the bottom, such as "
                                "5,10,20,50,100,200,400,800: how many grains make an average"},
+                   {.name = "two-slopes",
+                    .meaning = "--fit takes piles with a slope of their own on each side, all built alike, and wedges"},
                    {.name = "mirror", .meaning = "cuts of each run are means of it and of its mirror image"},
                    {.name = "kernel",
                     .value = "WIDTH",

@@ -50,7 +50,7 @@ typedef struct measure_fits {
     measure_fit_number number[MEASURE_FIT_NUMBERS];
     size_t rows;
     measure_fit_row *row;
-    double slope; ///< rad
+    double slope[2]; ///< rad, left and right
 } measure_fits;
 
 enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
@@ -66,6 +66,7 @@ typedef struct measure_plan {
     const char *at, *from;
     bool mean; ///< over all snapshots of the stage `at`
     int threads;
+    bool two_slopes;               ///< fits do not fold
     const char *fit[MEASURE_FITS]; ///< names of theories that are fitted
     size_t fits;
     const char *network; ///< folder that the network of one run is drawn into; NULL: it is not

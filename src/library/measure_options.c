@@ -169,6 +169,7 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
                            .at = options->at ? options->at : "end",
                            .from = options->from,
                            .threads = options->threads,
+                           .two_slopes = options->two_slopes,
                            .element_given = options->element != NULL};
     plan->mean = strncmp(plan->at, mean, sizeof mean - 1) == 0;
     if (plan->mean) plan->at += sizeof mean - 1;

@@ -81,21 +81,31 @@ static scree_status find_mark(const char *directory, const char *option, const c
 
 // ---- tables ------------------------------------------------------------------------------------------------------
 
-/// The triangle that a plane pile is to theories: its area, and its height three times that of the centre of mass.
+/// The triangle that a plane pile is to theories: its area, and its height three times that of the centre of mass; with
+/// two slopes also the place of its centre of mass between its feet: the apex is three times as far from their middle.
 static void tell_triangle(const scree_average_view *view, scree_average_table *values)
 {
     const scree_average_sample *sample = view->sample;
-    double mass = 0, moment = 0;
+    const scree_average_surface *surface = &view->surface;
+    double mass = 0, moment = 0, along = 0, heap = 0;
     for (size_t p = 0; p < sample->bodies; p++) {
         const scree_average_grain *grain = &sample->grain[p];
         if (!grain->counted) continue;
         mass += grain->mass;
         moment += grain->mass * (grain->position[1] - view->frame.base);
+        if (grain->position[0] < surface->left || grain->position[0] > surface->right) continue;
+        heap += grain->mass; // what has rolled away has no part in where it stands
+        along += grain->mass * grain->position[0];
     }
     const bool plane = sample->dimension == 2 && view->weight > 0 && moment > 0;
     const double height = plane ? 3 * moment / mass : NAN, area = view->surface.volume;
     scree_average_table_take(values, "triangle_height", "m", height);
     scree_average_table_take(values, "triangle_slope", "degree", atan(height * height / area) * 180 / M_PI);
+    const double middle = 0.5 * (surface->left + surface->right), apex = 3 * (along / heap - middle);
+    const double half = area / height;
+    scree_average_table_take(values, "triangle_slope_left", "degree", atan2(height, half + apex) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_slope_right", "degree", atan2(height, half - apex) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_apex", "m", plane ? middle + apex - view->frame.axis : NAN);
     scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
 }
 
@@ -222,6 +232,15 @@ static double margin_of(const measure_plan *plan, const scree_average_sample *sa
     return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius) + 4 * sample->mean_radius;
 }
 
+/// What cannot be averaged over is a matter of the snapshot.
+static scree_status name_snapshot(scree_status status, scree_error *error)
+{
+    if (status != SCREE_ERROR_INPUT || !error) return status;
+    (void)snprintf(error->field, sizeof error->field, "--at");
+    (void)snprintf(error->accepted, sizeof error->accepted, "another snapshot: end, #N, or a stage");
+    return status;
+}
+
 /// frame: where places are, found by the first one of several; NULL: there is one.
 static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
                                      const scree_snapshot_mark *from, const measure_plan *plan, bool first,
@@ -234,7 +253,7 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
     status = move(directory, from, plan, &before, &sample, error);
-    if (!status) status = scree_average_sample_finish(&sample, error);
+    if (!status) status = name_snapshot(scree_average_sample_finish(&sample, error), error);
     if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample.counted);
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;

@@ -31,6 +31,7 @@ scree_measure_options scree_ensemble_options(const scree_sweep_ensemble *ensembl
                                    .fit = said(ensemble->fit),
                                    .sizes = said(ensemble->sizes),
                                    .mirror = ensemble->mirror,
+                                   .two_slopes = ensemble->two_slopes,
                                    .points = (long)ensemble->points,
                                    .threads = 1};
 }

@@ -54,7 +54,7 @@ typedef struct scree_sweep_bisect {
 typedef struct scree_sweep_ensemble {
     char *fields, *cuts, *element, *grid, *kernel, *at, *from, *axis, *fit, *sizes;
     int64_t points; ///< 0: as there
-    bool mirror;
+    bool mirror, two_slopes;
     char *figures; ///< names of those that a report shows, with commas
 } scree_sweep_ensemble;
 
