@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define HEIGHT  0.3 /* of the place over the height of the sample */
-#define MOST    0.6 /* largest side over it */
-#define SETTLED 0.1 /* change of what has settled */
+#define HEIGHT  0.33 /* of the place over the height of the sample */
+#define MOST    0.66 /* largest side over it */
+#define SETTLED 0.1  /* change of what has settled */
 
 const char *const scree_average_sized_names[SCREE_AVERAGE_SIZED] = {"stress", "strain", "fabric"};
 

@@ -186,7 +186,10 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
                                 measure_found *found, scree_error *error)
 {
     scree_status status = SCREE_OK;
-    for (size_t k = 0; k < count && !status; k++) status = measure_run(runs[k], plan, &each[k], error);
+    measure_plan others = *plan;
+    others.network = NULL; // that of the first run is drawn
+    for (size_t k = 0; k < count && !status; k++)
+        status = measure_run(runs[k], k == 0 ? plan : &others, &each[k], error);
     if (!status) status = find_means(each, count, found, error);
     if (!status) status = find_scatter(each, count, found, error);
     if (!status) status = find_dips(each, count, plan, found, error);
@@ -210,7 +213,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     if (count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no run is named");
     scree_status status = measure_plan_read(options, &plan, error);
     if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
-    plan.network = count == 1 && !plan.mean && !options->no_figures ? folder : NULL;
+    plan.network = !plan.mean && !options->no_figures ? folder : NULL;
     if (!status) status = scree_allocate(&each, count, sizeof *each, error);
     if (!status) status = measure_all(runs, count, &plan, each, &found, error);
     if (!status) {

@@ -69,7 +69,7 @@ typedef struct measure_plan {
     bool two_slopes;               ///< fits do not fold
     const char *fit[MEASURE_FITS]; ///< names of theories that are fitted
     size_t fits;
-    const char *network; ///< folder that the network of one run is drawn into; NULL: it is not
+    const char *network; ///< folder that the network of the run is drawn into; NULL: it is not
     const scree_measure_options *options;
 } measure_plan;
 

@@ -81,31 +81,60 @@ static scree_status find_mark(const char *directory, const char *option, const c
 
 // ---- tables ------------------------------------------------------------------------------------------------------
 
+/// Moments of the grains of a heap between its feet, what has rolled away left out.
+typedef struct heap_moments {
+    double mass, height, along, skewness; ///< kg; m above the base; m of x; m3, third central moment of x
+} heap_moments;
+
+static heap_moments find_moments(const scree_average_view *view)
+{
+    const scree_average_sample *sample = view->sample;
+    heap_moments m = {0};
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t p = 0; p < sample->bodies; p++) {
+            const scree_average_grain *grain = &sample->grain[p];
+            const double x = grain->position[0];
+            if (!grain->counted || x < view->surface.left || x > view->surface.right) continue;
+            if (pass == 0) {
+                m.mass += grain->mass;
+                m.height += grain->mass * (grain->position[1] - view->frame.base);
+                m.along += grain->mass * x;
+            } else {
+                m.skewness += grain->mass / m.mass * pow(x - m.along / m.mass, 3);
+            }
+        }
+    m.height /= m.mass;
+    m.along /= m.mass;
+    return m;
+}
+
+/// Distance of the apex of a triangle from the middle of its base b [m] by the third moment of its x, which is
+/// -e (9 b^2 / 4 - e^2) / 135.
+static double find_lean(double base, double skewness)
+{
+    double low = -0.5 * base, high = 0.5 * base;
+    for (int k = 0; k < 60; k++) {
+        const double e = 0.5 * (low + high), found = -e * (2.25 * base * base - e * e) / 135;
+        *(found > skewness ? &low : &high) = e;
+    }
+    return 0.5 * (low + high);
+}
+
 /// The triangle that a plane pile is to theories: its area, and its height three times that of the centre of mass; with
-/// two slopes also the place of its centre of mass between its feet: the apex is three times as far from their middle.
+/// two slopes the apex by the third moment of x and the middle of the base by the centre of mass. Feet have no part in
+/// it: a few grains that lie before one would move the apex by a multiple of their distance.
 static void tell_triangle(const scree_average_view *view, scree_average_table *values)
 {
     const scree_average_sample *sample = view->sample;
-    const scree_average_surface *surface = &view->surface;
-    double mass = 0, moment = 0, along = 0, heap = 0;
-    for (size_t p = 0; p < sample->bodies; p++) {
-        const scree_average_grain *grain = &sample->grain[p];
-        if (!grain->counted) continue;
-        mass += grain->mass;
-        moment += grain->mass * (grain->position[1] - view->frame.base);
-        if (grain->position[0] < surface->left || grain->position[0] > surface->right) continue;
-        heap += grain->mass; // what has rolled away has no part in where it stands
-        along += grain->mass * grain->position[0];
-    }
-    const bool plane = sample->dimension == 2 && view->weight > 0 && moment > 0;
-    const double height = plane ? 3 * moment / mass : NAN, area = view->surface.volume;
+    const heap_moments m = find_moments(view);
+    const bool plane = sample->dimension == 2 && view->weight > 0 && m.height > 0;
+    const double height = plane ? 3 * m.height : NAN, area = view->surface.volume, half = area / height;
+    const double lean = plane ? find_lean(2 * half, m.skewness) : NAN;
     scree_average_table_take(values, "triangle_height", "m", height);
-    scree_average_table_take(values, "triangle_slope", "degree", atan(height * height / area) * 180 / M_PI);
-    const double middle = 0.5 * (surface->left + surface->right), apex = 3 * (along / heap - middle);
-    const double half = area / height;
-    scree_average_table_take(values, "triangle_slope_left", "degree", atan2(height, half + apex) * 180 / M_PI);
-    scree_average_table_take(values, "triangle_slope_right", "degree", atan2(height, half - apex) * 180 / M_PI);
-    scree_average_table_take(values, "triangle_apex", "m", plane ? middle + apex - view->frame.axis : NAN);
+    scree_average_table_take(values, "triangle_slope", "degree", atan(height / half) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_slope_left", "degree", atan(height / (half + lean)) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_slope_right", "degree", atan(height / (half - lean)) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_apex", "m", m.along + 2 * lean / 3 - view->frame.axis);
     scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
 }
 

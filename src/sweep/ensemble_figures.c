@@ -37,10 +37,13 @@ static scree_status put_figure(const scree_finding *f, const char *figure, bool 
     status = scree_folders_make(folder, error);
     if (!status) status = scree_path_join(to, sizeof to, folder, file, error);
     if (!status) status = copy_file(from, to, error);
-    if (!status)
-        (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: mean of %zu runs with bands of 95 %%.*\n",
-                      f->name, point, form_names[f->form], link, file, f->name, point, form_names[f->form],
-                      scree_ensemble_runs(f->ensemble));
+    if (status) return status;
+    (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: ", f->name, point, form_names[f->form], link,
+                  file, f->name, point, form_names[f->form]);
+    if (strcmp(figure, "chains") == 0)
+        (void)fprintf(page, "the first run.*\n");
+    else
+        (void)fprintf(page, "mean of %zu runs with bands of 95 %%.*\n", scree_ensemble_runs(f->ensemble));
     return status;
 }
 

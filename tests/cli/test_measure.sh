@@ -52,7 +52,7 @@ for file in sizes.csv scatter.csv sizes-stress.png sizes-strain.png sizes-fabric
 done
 same "$(tail -1 sizes/sizes.csv | cut -d, -f1,7)" "300,nan" "a size that does not fit"
 same "$("$scree" get sizes element_grains)" 6 "a tenth of the grains"
-expect 0 '' "$scree" measure pile1 pile2 pile1 --sizes 2,4,8,300 --from "#15" --element "10 %" --mirror --threads 3 --no-figures -o threads
+expect 0 'rve_fabric_grains' "$scree" measure pile1 pile2 pile1 --sizes 2,4,8,300 --from "#15" --element "10 %" --mirror --threads 3 --no-figures -o threads
 for file in cuts.csv sizes.csv scatter.csv values.csv; do expect 0 '' cmp sizes/$file threads/$file; done
 checks=$((checks + 1))
 awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "place [1]") p = k; if ($k == "stress_yy [Pa]") s = k; if ($k == "stress_xy [Pa]") t = k } next }
@@ -84,8 +84,8 @@ expect 0 'warning: pile1: not at rest: .* of the mean contact force' "$scree" me
 "$scree" get moving warnings | grep -q 'not at rest, unbalanced ratio' || complain "a run that is not at rest is not said to be"
 # A gas has no contacts.
 expect 0 '' "$scree" run rotating-drum --quick --set particles.count=40 --set stages.settle.duration="1 ms" --set stages.turn.duration="1 ms" \
-    --set output.paraview=no --set output.figures=no --threads 1 --quiet
-expect 2 '--at: there are no contacts.*another snapshot' "$scree" measure rotating-drum --at start
+    --set output.paraview=no --set output.figures=no --threads 1 --quiet -o gas
+expect 2 '--at: there are no contacts.*another snapshot' "$scree" measure gas --at start
 # One run has no interval, and says so.
 expect 0 'one run has no interval and no p: give the folders of several piles' "$scree" measure pile1 --no-figures -o few
 [ -e nothing ] && complain "a folder was made of a run that is not there"
