@@ -168,6 +168,27 @@ static void test_profile(void **state)
     scree_average_table_destroy(&table);
 }
 
+/// Forces that are twice as large about the axis as beside it; what lies between does not count.
+static void test_core(void **state)
+{
+    (void)state;
+    scree_average_sample s = average_lattice(20, 0.5, 3, 3);
+    scree_error error;
+    scree_average_view view;
+    wanted w = {"force_core_ratio", NAN};
+    average_finish(&s);
+    check(scree_average_view_open(&s, &(scree_average_plan){.side = 4}, &view, &error), &error);
+    for (size_t c = 0; c < s.contacts; c++) {
+        const double away = fabs(s.contact[c].point[0] - 10) / view.frame.half;
+        const bool high = s.contact[c].point[1] - view.frame.base > 0.5 * view.frame.height;
+        s.contact[c].normal_force = high ? 100 : away <= 0.1 ? 6 : away < 0.2 ? 50 : away <= 0.5 ? 3 : 70;
+    }
+    scree_average_profile_forces(&view, pick, &w);
+    near(w.value, 2, 1e-12);
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
 /// Elements and points see the motion about their mean velocity alone, whatever the whole does.
 static void test_kinetic(void **state)
 {
@@ -250,7 +271,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sizes),   cmocka_unit_test(test_scatter), cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_profile), cmocka_unit_test(test_kinetic), cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_profile), cmocka_unit_test(test_kinetic), cmocka_unit_test(test_core),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
