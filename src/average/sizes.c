@@ -121,7 +121,7 @@ static double find_settled(const scree_average_view *view, scree_average_sized w
 void scree_average_sizes_tell(const scree_average_view *view, scree_average_sink *sink, void *user)
 {
     char name[48];
-    for (int k = 0; k < SCREE_AVERAGE_SIZED; k++) {
+    for (scree_average_sized k = 0; k < SCREE_AVERAGE_SIZED; k++) {
         (void)snprintf(name, sizeof name, "rve_%s_small", scree_average_sized_names[k]);
         sink(user, name, "1", change_between(view, k, 10, 20));
         (void)snprintf(name, sizeof name, "rve_%s_large", scree_average_sized_names[k]);

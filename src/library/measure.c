@@ -66,7 +66,7 @@ static scree_status find_scatter(const measure_tables *each, size_t count, measu
     for (size_t i = 0; i < count && !status; i++) same[i] = each[i].of[MEASURE_SIZES];
     if (!status) leave_out(same, count, found);
     if (!status) status = scree_average_sizes_scatter(same, count, &found->mean.of[MEASURE_SCATTER], error);
-    for (int k = 0; k < SCREE_AVERAGE_SIZED && !status; k++)
+    for (scree_average_sized k = 0; k < SCREE_AVERAGE_SIZED && !status; k++)
         scree_average_sizes_exponent(same, count, k, &found->exponent[k][0], &found->exponent[k][1],
                                      &found->exponent[k][2]);
     scree_release(&same);
