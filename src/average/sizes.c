@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define HEIGHT  0.33 /* of the place over the height of the sample */
-#define MOST    0.66 /* largest side over it */
+#define MOST    0.66 /* largest side over it, and over the widths */
 #define SETTLED 0.1  /* change of what has settled */
 
 const char *const scree_average_sized_names[SCREE_AVERAGE_SIZED] = {"stress", "strain", "fabric"};
@@ -27,7 +27,9 @@ static double side_of(const scree_average_view *view, double grains)
 
 static bool fits(const scree_average_view *view, double side)
 {
-    return side <= MOST * view->frame.height;
+    const scree_average_frame *f = &view->frame;
+    const double depth = view->sample->dimension == 3 ? f->high[1] - f->low[1] : INFINITY;
+    return side <= MOST * fmin(f->height, fmin(2 * f->half, depth));
 }
 
 static void centre_of(const scree_average_view *view, scree_vector centre)

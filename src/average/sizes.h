@@ -2,7 +2,7 @@
 ///
 /// The elements are squares (cubes) about a place on the axis at 0.33 of the height, "in the centre and near the
 /// bottom" (R 2.7, fig. 2.8 - 2.10), so that a field that changes linearly has the same mean in all of them. One whose
-/// side is more than 0.66 of the height reaches out of the sample below; its row has no numbers.
+/// side is more than 0.66 of the height, or of a width, reaches out of the sample or nearly so: its row has no numbers.
 ///
 /// Of one sample, T(n) the stress, the strain (Cundall) or the fabric tensor over n grains, |T|^2 = T : T:
 ///     rve_T_small   |T(20) - T(10)| / |T(20)|

@@ -1,6 +1,7 @@
 /// Strains of elements between two instants: affine motions of any size, rotations, turning grains, known faults.
 #include "average_fixture.h"
 
+#include "average/kernel_strain.h"
 #include "average/strain.h"
 #include "base/matrix.h"
 
@@ -190,6 +191,13 @@ static void test_cell(void **state)
             for (int i = 0; i < 2 && d != SCREE_AVERAGE_LIAO; i++)
                 for (int j = 0; j < 2; j++) near(found[d][3 * i + j], gradient[3 * i + j], 1e-12);
     }
+    // Smooth strains at a corner of the cell and in it.
+    const scree_average_points points = {.number = {2, 2, 1}, .first = {0, 0, 0}, .gap = {5, 4, 1}};
+    double smooth[4][9], displacement[4][2];
+    check(scree_average_kernel_strain_find(&s, 2.5, &points, displacement[0], smooth, &error), &error);
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) near(smooth[k][3 * i + j], gradient[3 * i + j], 1e-11);
     scree_average_strain_close(&strain);
     scree_average_bins_destroy(&bins);
     scree_average_sample_destroy(&s);
