@@ -40,7 +40,7 @@ class CaseSummaryStruct(Structure):
                 ("largest_step", c_uint64), ("phi", c_double), ("psi", c_double), ("inertial_number", c_double),
                 ("mean_radius", c_double), ("thickness", c_double), ("reference_velocity", c_double),
                 ("steps", c_double), ("seconds", c_double), ("stepping", c_double), ("output", c_double),
-                ("figures", c_double), ("rate", c_double), ("memory", c_double)]
+                ("figures", c_double), ("rate", c_double), ("memory", c_double), ("tabor", c_double)]
 
 
 class ContactPoint(Structure):

@@ -45,6 +45,7 @@ class CaseSummary:
     figures: float
     rate: float  #: particle-steps per second
     memory: float  #: bytes
+    tabor: float  #: largest Tabor parameter of contacts of mean grains
 
 
 class CheckedCase:

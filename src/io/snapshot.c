@@ -319,6 +319,9 @@ static void read_polygons(scree_hdf5 *run, const char *group, scree_snapshot *sn
     for (size_t k = 0; k < snapshot->count && !run->status; k++)
         if ((size_t)snapshot->first_corner[k] + snapshot->corner_count[k] > snapshot->corners)
             scree_hdf5_damaged(run, "a body has corners that are not there");
+    (void)snprintf(name, sizeof name, "%s/rounding", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->rounding = read_column(run, group, "rounding", SCREE_FIELD_DOUBLE, 1, &snapshot->count);
 }
 
 /// Turns ids into places in the snapshot; the number of those that name no body.
@@ -399,7 +402,7 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->vz,        &snapshot->contact_z,    &snapshot->wall_triangle,
                             &snapshot->wall_line, &snapshot->branch_x,     &snapshot->branch_y,
                             &snapshot->branch_z,  &snapshot->first_corner, &snapshot->corner_count,
-                            &snapshot->corner,    &snapshot->birth};
+                            &snapshot->corner,    &snapshot->birth,        &snapshot->rounding};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }
