@@ -48,17 +48,21 @@ static scree_average_sample make(int dimension, const size_t side[3])
     return s;
 }
 
-static void time_elements(scree_average_sample *s, const size_t grid[3])
+static void time_elements(scree_average_sample *s, const size_t grid[3], int threads)
 {
     scree_error error;
     scree_average_view view;
     scree_average_table table = {0};
-    const scree_average_plan plan = {
-        .fields = (1U << SCREE_AVERAGE_FIELDS) - 1, .grains = 150, .points = 1, .grid = {grid[0], grid[1], grid[2]}};
-    const double begin = seconds(1);
+    const scree_average_plan plan = {.fields = (1U << SCREE_AVERAGE_FIELDS) - 1,
+                                     .grains = 150,
+                                     .points = 1,
+                                     .threads = threads,
+                                     .grid = {grid[0], grid[1], grid[2]}};
+    const double begin = seconds(threads);
     require(scree_average_view_open(s, &plan, &view, &error), &error);
     require(scree_average_map_table(&view, &plan, &table, &error), &error);
-    printf("%zu grains on %zu points, elements of 150 grains: %.3g s\n", s->bodies, table.rows, seconds(1) - begin);
+    printf("%zu grains on %zu points, elements of 150 grains, %d threads: %.3g s\n", s->bodies, table.rows, threads,
+           seconds(threads) - begin);
     scree_average_table_destroy(&table);
     scree_average_view_close(&view);
 }
@@ -85,12 +89,12 @@ int main(int count, char **argument)
     const int threads = count > 2 ? (int)strtol(argument[2], NULL, 10) : 1;
     const size_t side = given > 0 ? (size_t)given : USUAL_SIDE, cube[3] = {side, side, side};
     scree_average_sample discs = make(2, (size_t[]){COLUMNS, ROWS, 1});
-    time_elements(&discs, (size_t[]){100, 50, 1});
+    time_elements(&discs, (size_t[]){100, 50, 1}, threads);
     time_kernel(&discs, (size_t[]){100, 50, 1}, true, threads);
     scree_average_sample_destroy(&discs);
     scree_average_sample spheres = make(3, cube);
     for (int check = 0; check < 2; check++) time_kernel(&spheres, cube, check == 1, threads);
-    if (side <= USUAL_SIDE) time_elements(&spheres, cube);
+    if (side <= USUAL_SIDE) time_elements(&spheres, cube, threads);
     scree_average_sample_destroy(&spheres);
     return 0;
 }

@@ -15,19 +15,22 @@ extern "C" {
 
 /// What is measured, as on the command line (`scree measure --help`); NULL or 0: as there without the option.
 typedef struct scree_measure_options {
-    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity,elastic", or some of them; elastic
-                         ///< needs `from`
+    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity,elastic,kinetic", or some of them;
+                         ///< elastic needs `from`
     const char *cuts;    ///< "5", a number of cuts, or "0,0.25,0.5", their relative heights
-    const char *element; ///< "150", grains in an element, or "30 mm", its side
+    const char *element; ///< "150", grains in an element, "10 %", a part of all, or "30 mm", its side
     const char *grid;    ///< "100x50", points of a map; in 3D x and z in the middle of y, or "20x20x20"
     const char *kernel;  ///< "15 mm", radius of the support of smooth fields, or "3", in mean diameters
+    const char *sizes;   ///< "5,10,20,50,100,200,400,800", grains of elements about one place: how many make an average
     const char *at; ///< "start", "end", "#12", a snapshot, the name of a stage, "10 %" of axial strain; "mean:STAGE" or
                     ///< "mean:10", mean over its snapshots, or over the last ones
     const char *from;   ///< the same but for means: displacements and strains from there on
     const char *fit;    ///< theories of piles that are fitted to the mean stresses, "ife,bcc,fpa,osl,wedge"
     const char *axis;   ///< "mass", "apex", or a place, "0 mm"
     long points;        ///< places along a cut
-    int threads;        ///< for smooth fields
+    int threads;        ///< that find elements and smooth fields
+    bool two_slopes;    ///< fits do not fold piles about their axis: left and right slopes of their own
+    bool mirror;        ///< cuts are means of each run and its mirror image about the axis
     const char *output; ///< folder; "measure" in that of the run, or where it is called with several runs
     bool no_figures;
     void (*message)(void *user, const char *line); ///< what was found, line by line; may be NULL

@@ -100,9 +100,9 @@ class SweepOptions(Structure):
 
 class MeasureOptions(Structure):
     _fields_ = [("fields", c_char_p), ("cuts", c_char_p), ("element", c_char_p), ("grid", c_char_p),
-                ("kernel", c_char_p), ("at", c_char_p), ("start", c_char_p), ("fit", c_char_p), ("axis", c_char_p),
-                ("points", c_long), ("threads", c_int), ("output", c_char_p), ("no_figures", c_bool),
-                ("message", LINE), ("user", c_void_p)]
+                ("kernel", c_char_p), ("sizes", c_char_p), ("at", c_char_p), ("start", c_char_p), ("fit", c_char_p),
+                ("axis", c_char_p), ("points", c_long), ("threads", c_int), ("two_slopes", c_bool), ("mirror", c_bool),
+                ("output", c_char_p), ("no_figures", c_bool), ("message", LINE), ("user", c_void_p)]
 
 
 class TheoryValue(Structure):

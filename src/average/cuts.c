@@ -2,9 +2,12 @@
 #include "average/cuts.h"
 
 #include "average/elastic.h"
+#include "base/thread_pool.h"
 
 #include <math.h>
 #include <stdio.h>
+
+enum { BLOCK = 2048 }; ///< elements that are found before they are told
 
 // ---- the view ----------------------------------------------------------------------------------------------------
 
@@ -105,13 +108,40 @@ void scree_average_view_close(scree_average_view *view)
     scree_average_strain_close(&view->strain);
 }
 
-// ---- tables ------------------------------------------------------------------------------------------------------
+// ---- elements ----------------------------------------------------------------------------------------------------
 
-static scree_average_element element_at(const scree_average_view *view, const scree_vector centre)
+/// Where an element stands, and what is found of it.
+typedef struct place_found {
+    scree_vector centre;
+    double side;
+    scree_average_value value;
+    scree_vector displacement;
+    double gradient[SCREE_AVERAGE_STRAINS][9];
+} place_found;
+
+/// A block of elements that threads find together.
+typedef struct block {
+    const scree_average_view *view;
+    place_found *item;
+    size_t count;
+} block;
+
+static scree_average_element element_of(const scree_average_view *view, const place_found *at)
 {
-    const bool in_3d = view->sample->dimension == 3;
-    return scree_average_element_at(centre,
-                                    (scree_vector){view->frame.side, view->frame.side, in_3d ? view->frame.side : 0});
+    return scree_average_element_at(at->centre,
+                                    (scree_vector){at->side, at->side, view->sample->dimension == 3 ? at->side : 0});
+}
+
+/// Every so many elements: those near the surface cost less than those inside, so shares are spread over the block.
+static void find_share(void *argument, int index, int count)
+{
+    const block *b = argument;
+    for (size_t k = (size_t)index; k < b->count; k += (size_t)count) {
+        place_found *item = &b->item[k];
+        const scree_average_element element = element_of(b->view, item);
+        scree_average_measure(b->view->sample, &b->view->bins, &b->view->surface, &element, &item->value);
+        if (b->view->moved) scree_average_strain_find(&b->view->strain, &element, item->displacement, item->gradient);
+    }
 }
 
 /// Minus the vertical normal stress [Pa].
@@ -121,56 +151,84 @@ static double vertical_pressure(const scree_average_view *view, const scree_aver
     return -value->centres.moment[4 * up] / (value->volume * view->sample->thickness);
 }
 
-/// What has changed since the earlier instant.
-static void tell_increments(const scree_average_view *view, const scree_average_plan *plan,
-                            const scree_average_element *element, const scree_average_value *value,
-                            scree_average_table *table)
+static void tell_found(const scree_average_view *view, const scree_average_plan *plan, place_found *found,
+                       scree_average_table *table)
 {
-    scree_vector displacement;
-    double gradient[SCREE_AVERAGE_STRAINS][9];
-    scree_average_strain_find(&view->strain, element, displacement, gradient);
-    scree_average_strain_tell(view->sample->dimension, displacement, gradient, scree_average_table_take, table);
-    if (plan->fields & SCREE_AVERAGE_ELASTIC)
-        scree_average_elastic_tell(view->sample, value, gradient, scree_average_table_take, table);
+    const scree_average_sample *sample = view->sample;
+    const double g = -sample->gravity[sample->dimension - 1];
+    scree_average_tell(sample, &found->value, plan->fields, scree_average_table_take, table);
+    if (view->moved)
+        scree_average_strain_tell(sample->dimension, found->displacement, found->gradient, scree_average_table_take,
+                                  table);
+    if (view->moved && plan->fields & SCREE_AVERAGE_ELASTIC)
+        scree_average_elastic_tell(sample, &found->value, found->gradient, scree_average_table_take, table);
+    if (plan->fields & SCREE_AVERAGE_STRESS)
+        scree_average_table_take(
+            table, "vertical_pressure_scaled", "1",
+            g > 0 ? vertical_pressure(view, &found->value) / (view->bulk_density * g * view->frame.height) : NAN);
 }
 
-static void tell_fields(const scree_average_view *view, const scree_average_plan *plan, const scree_vector centre,
-                        scree_average_table *table)
+scree_status scree_average_elements_table(const scree_average_view *view, const scree_average_plan *plan, size_t count,
+                                          scree_average_placing *lay, void *user, scree_average_table *table,
+                                          scree_error *error)
 {
-    const scree_average_element element = element_at(view, centre);
-    const double g = -view->sample->gravity[view->sample->dimension - 1];
-    scree_average_value value;
-    scree_average_measure(view->sample, &view->bins, &view->surface, &element, &value);
-    scree_average_tell(view->sample, &value, plan->fields, scree_average_table_take, table);
-    if (view->moved) tell_increments(view, plan, &element, &value, table);
-    if (plan->fields & SCREE_AVERAGE_STRESS)
-        scree_average_table_take(table, "vertical_pressure_scaled", "1",
-                                 g > 0 ? vertical_pressure(view, &value) / (view->bulk_density * g * view->frame.height)
-                                       : NAN);
+    scree_thread_pool *pool = NULL;
+    block b = {.view = view};
+    const size_t most = count < BLOCK ? count : BLOCK;
+    scree_status status = scree_allocate(&b.item, most, sizeof *b.item, error);
+    for (size_t first = 0; first < count && !status; first += b.count) {
+        b.count = count - first < most ? count - first : most;
+        for (size_t k = 0; k < b.count; k++) lay(user, first + k, b.item[k].centre, &b.item[k].side, NULL);
+        scree_thread_pool_run(&pool, plan->threads < 1 ? 1 : plan->threads, find_share, &b);
+        for (size_t k = 0; k < b.count && !status; k++) {
+            scree_vector centre;
+            double side;
+            status = scree_average_table_begin_row(table, error);
+            if (status) break;
+            lay(user, first + k, centre, &side, table);
+            tell_found(view, plan, &b.item[k], table);
+            status = scree_average_table_end_row(table, error);
+        }
+    }
+    scree_thread_pool_destroy(&pool);
+    scree_release(&b.item);
+    return status;
+}
+
+// ---- tables ------------------------------------------------------------------------------------------------------
+
+/// What places of tables follow from.
+typedef struct layout {
+    const scree_average_view *view;
+    const scree_average_plan *plan;
+    size_t number[3]; ///< of the map
+} layout;
+
+static void place_on_cut(void *user, size_t k, scree_vector centre, double *side, scree_average_table *table)
+{
+    const layout *l = user;
+    const scree_average_frame *f = &l->view->frame;
+    const int up = l->view->sample->dimension - 1;
+    const size_t cut = k / l->plan->points, half = l->plan->points / 2;
+    const double at = half > 0 ? ((double)(k % l->plan->points) - (double)half) / (double)half : 0;
+    *side = f->side;
+    centre[0] = f->axis + at * f->half;
+    centre[1] = f->middle;
+    centre[2] = 0;
+    centre[up] = f->base + 0.5 * f->side + l->plan->height[cut] * (f->height - f->side);
+    if (!table) return;
+    scree_average_table_take(table, "cut", "1", (double)cut);
+    scree_average_table_take(table, "height", "1", l->plan->height[cut]);
+    scree_average_table_take(table, up == 1 ? "y" : "z", "m", centre[up] - f->base);
+    scree_average_table_take(table, "place", "1", at);
+    scree_average_table_take(table, "x", "m", centre[0] - f->axis);
 }
 
 scree_status scree_average_cuts_table(const scree_average_view *view, const scree_average_plan *plan,
                                       scree_average_table *table, scree_error *error)
 {
-    const int up = view->sample->dimension - 1;
-    scree_status status = SCREE_OK;
-    for (size_t k = 0; k < plan->cuts * plan->points && !status; k++) {
-        const size_t cut = k / plan->points, half = plan->points / 2;
-        const double at = half > 0 ? ((double)(k % plan->points) - (double)half) / (double)half : 0;
-        scree_vector centre = {view->frame.axis + at * view->frame.half, view->frame.middle, 0};
-        centre[up] =
-            view->frame.base + 0.5 * view->frame.side + plan->height[cut] * (view->frame.height - view->frame.side);
-        status = scree_average_table_begin_row(table, error);
-        if (status) break;
-        scree_average_table_take(table, "cut", "1", (double)cut);
-        scree_average_table_take(table, "height", "1", plan->height[cut]);
-        scree_average_table_take(table, up == 1 ? "y" : "z", "m", centre[up] - view->frame.base);
-        scree_average_table_take(table, "place", "1", at);
-        scree_average_table_take(table, "x", "m", centre[0] - view->frame.axis);
-        tell_fields(view, plan, centre, table);
-        status = scree_average_table_end_row(table, error);
-    }
-    return status;
+    layout l = {.view = view, .plan = plan};
+    return scree_average_elements_table(view, plan, plan->cuts * plan->points, place_on_cut, &l, table, error);
 }
 
 void scree_average_grid(const scree_average_plan *plan, int dimension, size_t number[3])
@@ -181,28 +239,26 @@ void scree_average_grid(const scree_average_plan *plan, int dimension, size_t nu
     number[2] = upright ? plan->grid[1] : dimension == 3 ? plan->grid[2] : 1;
 }
 
+static void place_on_map(void *user, size_t k, scree_vector centre, double *side, scree_average_table *table)
+{
+    const layout *l = user;
+    const scree_average_frame *f = &l->view->frame;
+    const size_t *n = l->number, number[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
+    *side = f->side;
+    for (int i = 0; i < 3; i++) {
+        const bool there = i < l->view->sample->dimension;
+        centre[i] = there ? f->low[i] + ((double)number[i] + 0.5) / (double)n[i] * (f->high[i] - f->low[i]) : 0;
+        if (there && table) scree_average_table_take(table, (const char *[]){"x", "y", "z"}[i], "m", centre[i]);
+    }
+}
+
 scree_status scree_average_map_table(const scree_average_view *view, const scree_average_plan *plan,
                                      scree_average_table *table, scree_error *error)
 {
-    const scree_average_sample *sample = view->sample;
-    size_t n[3];
-    scree_average_grid(plan, sample->dimension, n);
-    const size_t count = n[0] * n[1] * n[2];
-    scree_status status = SCREE_OK;
-    for (size_t k = 0; k < count && !status; k++) {
-        const size_t number[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
-        scree_vector centre = {0};
-        for (int i = 0; i < sample->dimension; i++)
-            centre[i] = view->frame.low[i] +
-                        ((double)number[i] + 0.5) / (double)n[i] * (view->frame.high[i] - view->frame.low[i]);
-        status = scree_average_table_begin_row(table, error);
-        if (status) break;
-        for (int i = 0; i < sample->dimension; i++)
-            scree_average_table_take(table, (const char *[]){"x", "y", "z"}[i], "m", centre[i]);
-        tell_fields(view, plan, centre, table);
-        status = scree_average_table_end_row(table, error);
-    }
-    return status;
+    layout l = {.view = view, .plan = plan};
+    scree_average_grid(plan, view->sample->dimension, l.number);
+    return scree_average_elements_table(view, plan, l.number[0] * l.number[1] * l.number[2], place_on_map, &l, table,
+                                        error);
 }
 
 void scree_average_plate_force(const scree_average_view *view, double *averages, double *weight)

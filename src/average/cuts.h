@@ -13,7 +13,7 @@
 #include "average/strain.h"
 #include "average/table.h"
 
-enum { SCREE_AVERAGE_CUTS = 64 };
+enum { SCREE_AVERAGE_CUTS = 64, SCREE_AVERAGE_SIZES = 32 };
 
 typedef enum scree_average_axis {
     SCREE_AVERAGE_AXIS_MASS, ///< x of the centre of mass
@@ -39,7 +39,10 @@ typedef struct scree_average_plan {
     double height[SCREE_AVERAGE_CUTS]; ///< relative, 0 to 1
     size_t points;                     ///< of a cut, odd
     scree_average_axis axis;
-    double axis_given; ///< m
+    double axis_given;                ///< m
+    size_t sizes;                     ///< elements of so many sizes about one place (average/sizes.h)
+    double size[SCREE_AVERAGE_SIZES]; ///< their grains
+    int threads;                      ///< that find elements; less than 1: one
     size_t grid[3]; ///< 0: no map; with grid[2] 0 the second number is that of rows upwards, in the middle of y in 3D
 } scree_average_plan;
 
@@ -61,6 +64,15 @@ typedef struct scree_average_view {
 scree_status scree_average_view_open(scree_average_sample *sample, const scree_average_plan *plan,
                                      scree_average_view *view, scree_error *error) SCREE_MUST_USE;
 void scree_average_view_close(scree_average_view *view);
+
+/// Where element `k` of a table lies: its centre and side [m]; with a table it tells what a row begins with, too.
+typedef void scree_average_placing(void *user, size_t k, scree_vector centre, double *side, scree_average_table *table);
+
+/// Rows of `count` elements: what `place` tells of each, and the fields. Threads of the plan find elements in blocks,
+/// one thread tells them in their order: the same bits for any number of threads. Errors: memory.
+scree_status scree_average_elements_table(const scree_average_view *view, const scree_average_plan *plan, size_t count,
+                                          scree_average_placing *place, void *user, scree_average_table *table,
+                                          scree_error *error) SCREE_MUST_USE;
 
 /// Points of the grid along x, y, z.
 void scree_average_grid(const scree_average_plan *plan, int dimension, size_t number[3]);

@@ -5,9 +5,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-const char *const scree_average_field_names[SCREE_AVERAGE_FIELDS + 1] = {"density", "coordination", "stress",  "fabric",
-                                                                         "inertia", "velocity",     "elastic", NULL};
+const char *const scree_average_field_names[SCREE_AVERAGE_FIELDS + 1] = {
+    "density", "coordination", "stress", "fabric", "inertia", "velocity", "elastic", "kinetic", NULL};
 
 // ---- sums --------------------------------------------------------------------------------------------------------
 
@@ -21,13 +22,14 @@ static void add_grain(const scree_average_sample *sample, uint32_t p, double wei
     sums->contacts += weight * own->contacts;
     sums->mass += weight * grain->mass;
     scree_along(sums->momentum, weight * grain->mass, grain->velocity, sums->momentum);
+    scree_tensor_add(sums->motion, weight * grain->mass, grain->velocity, grain->velocity);
     scree_tensor_add_scaled(sums->moment, weight, own->moment);
     scree_tensor_add_scaled(sums->branches, solid, own->branches);
     scree_tensor_add_scaled(sums->normals, solid, own->normals);
     scree_tensor_add_scaled(sums->inertia, solid, own->inertia);
     scree_tensor_add_scaled(sums->axis, weight, own->axis);
     if (sample->earlier && grain->moved)
-        for (int k = 0; k < 9; k++) sums->change[k] += weight * (own->moment[k] - sample->earlier[p][k]);
+        for (int k = 0; k < 9; k++) sums->change[k] += weight * (own->moment[k] - sample->earlier[grain->body][k]);
     sums->axes += weight * (own->axis[0] + own->axis[4] + own->axis[8]);
 }
 
@@ -163,11 +165,20 @@ static void tell_velocity(const telling *t)
         tell(t, name[k], "", "m/s", t->value->centres.momentum[k] / t->value->centres.mass);
 }
 
+static void tell_kinetic(const telling *t)
+{
+    const scree_average_sums *c = &t->value->centres;
+    double fluctuating[9];
+    memcpy(fluctuating, c->motion, sizeof fluctuating);
+    if (c->mass > 0) scree_tensor_add(fluctuating, -1 / c->mass, c->momentum, c->momentum);
+    tell_tensor(t, "kinetic", "", "Pa", fluctuating, -1 / (t->value->volume * t->sample->thickness));
+}
+
 void scree_average_tell(const scree_average_sample *sample, const scree_average_value *value, unsigned fields,
                         scree_average_sink *sink, void *user)
 {
     static void (*const tellers[SCREE_AVERAGE_FIELDS])(const telling *) = {
-        tell_density, tell_coordination, tell_stress, tell_fabric, tell_inertia, tell_velocity};
+        tell_density, tell_coordination, tell_stress, tell_fabric, tell_inertia, tell_velocity, NULL, tell_kinetic};
     const telling t = {sample, value, sink, user};
     tell(&t, "grains", "", "1", value->centres.grains);
     tell(&t, "inside", "", "1", value->inside);

@@ -10,6 +10,8 @@
 ///     inertia           sum w V_p theta_p / V                                              R 2.92
 ///     axes              sum e (x) e / number, e the long axis of each grain that has one
 ///     velocity          sum w m v / sum w m
+///     kinetic           - sum w m v' (x) v' / V, v' = v - the mean velocity of the element: the stress of the motion,
+///                       which is no part of `stress` (I. Goldhirsch, Granular Matter 12, 239, 2010)
 ///     fabric_anisotropy largest less smallest principal value of F over tr F
 ///     fabric_factor     tr F / (volume_fraction coordination), g_2 of R 3.4
 /// The trace of the fabric tensor of equal grains is volume_fraction times coordination. theta grows with the fourth
@@ -26,6 +28,7 @@
 /// Sums over the grains of an element, each by its weight.
 typedef struct scree_average_sums {
     double grains, solid, contacts, mass, momentum[3];
+    double motion[9]; ///< J, of m v (x) v
     double moment[9], branches[9], normals[9], inertia[9];
     double change[9];     ///< N m, of the moments since an earlier instant, where it is known
     double axes, axis[9]; ///< grains that have a long axis
@@ -50,7 +53,8 @@ enum {
     SCREE_AVERAGE_INERTIA = 16,
     SCREE_AVERAGE_VELOCITY = 32,
     SCREE_AVERAGE_ELASTIC = 64, ///< average/elastic.h
-    SCREE_AVERAGE_FIELDS = 7
+    SCREE_AVERAGE_KINETIC = 128,
+    SCREE_AVERAGE_FIELDS = 8
 };
 
 /// Names of the fields by bit.

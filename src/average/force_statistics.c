@@ -7,6 +7,7 @@
 enum { LINEAR = 32, DECADES = 4, OF_DECADE = 10, FRICTION = 40, SECTORS = 36, BANDS = 18 };
 
 #define LINEAR_WIDTH 0.25 /* of the mean force */
+#define STRONG       3.0  /* over the mean */
 #define LOG_FIRST    -3.0 /* power of ten at which logarithmic bins begin */
 
 // ---- forces ------------------------------------------------------------------------------------------------------
@@ -89,6 +90,14 @@ static void tell_friction(const scree_average_sample *sample, scree_average_sink
     sink(user, "mobilised_friction", "1", mobilised / pressing);
 }
 
+/// Share of the forces from `from` to below `to`, over their mean.
+static double share(const forces *f, double from, double to)
+{
+    double number = 0;
+    for (size_t k = 0; k < f->count; k++) number += f->n[k] >= from && f->n[k] < to;
+    return number / (double)f->count;
+}
+
 scree_status scree_average_forces_tell(const scree_average_sample *sample, scree_average_sink *sink, void *user,
                                        scree_error *error)
 {
@@ -102,10 +111,13 @@ scree_status scree_average_forces_tell(const scree_average_sample *sample, scree
         sink(user, "force_decay", "1", a.rate);
         sink(user, "force_decay_least", "1", a.low);
         sink(user, "force_decay_most", "1", a.high);
+        sink(user, "force_strong_share", "1", share(&all, STRONG, INFINITY));
         sink(user, "bottom_force_mean", "N", bottom.mean);
         sink(user, "bottom_force_decay", "1", b.rate);
         sink(user, "bottom_force_decay_least", "1", b.low);
         sink(user, "bottom_force_decay_most", "1", b.high);
+        sink(user, "bottom_share_to_half", "1", share(&bottom, 0, 0.5));
+        sink(user, "bottom_share_to_one", "1", share(&bottom, 0.5, 1));
     }
     scree_release(&all.n);
     scree_release(&bottom.n);

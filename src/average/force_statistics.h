@@ -8,6 +8,8 @@
 ///     1 / length = k / sum (n - 1),   k the number of forces above the mean,
 /// and 2 sum (n - 1) / length follows chi square with 2 k degrees of freedom, which gives the interval (exact for
 /// independent forces; forces in one sample are not quite, so intervals over samples are to be preferred).
+/// Shares of the bottom forces below half of the mean and from there to the mean: bins of equal width, so that the
+/// first is larger where P(n) rises below the mean (R 3.2). Strong contacts bear more than three times the mean.
 /// Friction is mobilised by |f_t| / f_n, what R 2.6.2 calls effective friction; a contact slides when the law says so.
 /// Roses: directions of normals between bodies, of each contact both ways, in sectors of equal angle in 2D, of equal
 /// solid angle by elevation in 3D; density 1 where all directions are alike; beside them the mean normal and tangential

@@ -7,14 +7,22 @@
 
 void scree_average_kernel_destroy(scree_average_kernel *k)
 {
-    double **const arrays[] = {&k->density,  &k->fraction,  &k->momentum,  &k->stress,
-                               &k->boundary, &k->resultant, &k->divergence};
+    double **const arrays[] = {&k->density, &k->fraction, &k->momentum,  &k->motion,
+                               &k->stress,  &k->boundary, &k->resultant, &k->divergence};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) scree_release(arrays[a]);
 }
 
 static double constant(int dimension, double width)
 {
     return dimension == 2 ? 4 / (M_PI * width * width) : 315 / (64 * M_PI * width * width * width);
+}
+
+void scree_average_kernel_kinetic(const scree_average_kernel *kernel, size_t point, double stress[9])
+{
+    const size_t d = (size_t)kernel->dimension;
+    const double *p = kernel->momentum + d * point, *motion = kernel->motion + d * d * point;
+    for (size_t a = 0; a < d * d; a++)
+        stress[a] = kernel->density[point] > 0 ? p[a / d] * p[a % d] / kernel->density[point] - motion[a] : 0;
 }
 
 double scree_average_kernel_value(int dimension, double width, const double away[3])
@@ -99,6 +107,8 @@ static void spread_grain(const slab *s, size_t point, double phi, const void *wh
     s->kernel->fraction[point] += grain->volume * s->sample->thickness * phi;
     for (size_t a = 0; a < d; a++) {
         s->kernel->momentum[d * point + a] += grain->mass * grain->velocity[a] * phi;
+        for (size_t b = 0; b < d; b++)
+            s->kernel->motion[d * (d * point + a) + b] += grain->mass * grain->velocity[a] * grain->velocity[b] * phi;
         if (s->kernel->resultant) s->kernel->resultant[d * point + a] += s->force[p][a] * phi;
     }
 }
@@ -224,6 +234,7 @@ static scree_status make_room(bool check, scree_average_kernel *k, scree_error *
     scree_status status = scree_allocate(&k->density, n, sizeof(double), error);
     if (!status) status = scree_allocate(&k->fraction, n, sizeof(double), error);
     if (!status) status = scree_allocate(&k->momentum, n * d, sizeof(double), error);
+    if (!status) status = scree_allocate(&k->motion, n * d * d, sizeof(double), error);
     if (!status) status = scree_allocate(&k->stress, n * d * d, sizeof(double), error);
     if (!status) status = scree_allocate(&k->boundary, n * d, sizeof(double), error);
     if (!status && check) status = scree_allocate(&k->resultant, n * d, sizeof(double), error);

@@ -15,8 +15,10 @@
 /// Exactly, in every place, at rest or not:
 ///     div stress + boundary + density g = resultant
 /// since l . grad of the line integral is phi(r - x_second) - phi(r - x_first). Divergences are found from the gradient
-/// of the kernel along the branch, not from that identity, so the balance is a check. The stress of motion (density v'
-/// v') is no part of it.
+/// of the kernel along the branch, not from that identity, so the balance is a check. The stress of the motion about
+/// the mean velocity V = momentum / density is no part of it (scree_average_kernel_kinetic):
+///     motion        sum_i m_i v_i (x) v_i phi(r - x_i)                                              Pa
+///     kinetic       - sum_i m_i (v_i - V) (x) (v_i - V) phi = momentum (x) momentum / density - motion
 ///
 /// Along a branch phi is a polynomial of degree 6 between the places where it enters and leaves the support: 4 points
 /// of Gauss integrate it, and 4 its derivative, exactly. Threads take slabs of points, each all contacts that reach it
@@ -37,7 +39,7 @@ typedef struct scree_average_kernel {
     double width; ///< m, w
     scree_average_points points;
     size_t count;
-    double *density, *fraction, *momentum, *stress, *boundary, *resultant, *divergence;
+    double *density, *fraction, *momentum, *motion, *stress, *boundary, *resultant, *divergence;
 } scree_average_kernel;
 
 /// Measures them of a finished sample (with images within w of the points, where it repeats itself). Without `check`
@@ -46,6 +48,9 @@ scree_status scree_average_kernel_find(const scree_average_sample *sample, doubl
                                        const scree_average_points *points, bool check, int threads,
                                        scree_average_kernel *kernel, scree_error *error) SCREE_MUST_USE;
 void scree_average_kernel_destroy(scree_average_kernel *kernel);
+
+/// Stress of the motion at a point [Pa], dimension x dimension; zero where there is no grain.
+void scree_average_kernel_kinetic(const scree_average_kernel *kernel, size_t point, double stress[9]);
 
 /// The kernel itself [1/m2, 1/m3].
 double scree_average_kernel_value(int dimension, double width, const double away[3]);

@@ -83,7 +83,7 @@ scree_status scree_average_kernel_strain_find(const scree_average_sample *sample
     sums *at;
     scree_status status = scree_allocate(&at, count, sizeof *at, error);
     if (status) return status;
-    for (size_t p = 0; p < sample->bodies; p++)
+    for (size_t p = 0; p < sample->count; p++)
         if (sample->grain[p].counted && sample->grain[p].moved) add_grain(sample, &sample->grain[p], width, points, at);
     for (size_t k = 0; k < count; k++)
         solve(&at[k], sample->dimension, displacement + (size_t)sample->dimension * k, gradient[k]);

@@ -1,7 +1,7 @@
 /// Images of a sample that repeats itself, so that elements and kernels may reach out of its cell.
 ///
 /// An image is a body once more, moved by a lattice vector H n with n in {-1, 0, 1}; a contact goes with its first
-/// body.
+/// body. What a body has moved by since an earlier instant its image has, and the change of H n beside it.
 #include "average/sample.h"
 #include "base/matrix.h"
 #include "state/periodic.h"
@@ -32,9 +32,10 @@ static scree_status append(repetition *r, const int steps[3], scree_error *error
 {
     scree_average_sample *s = r->sample;
     const double n[3] = {steps[0], steps[1], steps[2]};
-    double shift[3];
+    double shift[3], change[3];
     size_t grains = 0, contacts = 0;
     scree_matrix_apply(s->lattice, n, shift);
+    scree_matrix_apply(s->lattice_change, n, change);
     for (size_t p = 0; p < s->bodies; p++) grains += is_near(r, &s->grain[p], steps);
     for (size_t c = 0; c < s->contacts; c++) contacts += is_near(r, &s->grain[s->contact[c].first], steps);
     const size_t count = s->count + grains, all = s->contact_count + contacts;
@@ -46,6 +47,7 @@ static scree_status append(repetition *r, const int steps[3], scree_error *error
         r->place[p] = (uint32_t)s->count;
         s->own[s->count] = s->own[p];
         s->grain[s->count] = s->grain[p];
+        scree_along(s->grain[p].displacement, 1, change, s->grain[s->count].displacement);
         scree_along(s->grain[p].position, 1, shift, s->grain[s->count++].position);
     }
     for (size_t c = 0; c < s->contacts && !status; c++) {

@@ -74,16 +74,17 @@ typedef struct scree_average_sample {
     size_t corner_count;
 
     // ---- found by scree_average_sample_finish ----
-    scree_average_own *own;  ///< a grain
-    double (*earlier)[9];    ///< N m, moments of the grains at an earlier instant (average/strain.h); NULL: unknown
-    size_t counted;          ///< so many grains are counted
-    double mean_radius;      ///< m, of these
-    double mean_volume;      ///< m2, m3
-    double solid;            ///< m2, m3, of all of them
-    double mass;             ///< kg
-    double low[3], high[3];  ///< m, box that holds them
-    double mean_force;       ///< N, mean magnitude of a contact force
-    double unbalanced_ratio; ///< mean resultant on a grain that touches something over it
+    scree_average_own *own;   ///< a grain
+    double lattice_change[9]; ///< m, of the lattice since an earlier instant
+    double (*earlier)[9];     ///< N m, moments of the grains at an earlier instant (average/strain.h); NULL: unknown
+    size_t counted;           ///< so many grains are counted
+    double mean_radius;       ///< m, of these
+    double mean_volume;       ///< m2, m3
+    double solid;             ///< m2, m3, of all of them
+    double mass;              ///< kg
+    double low[3], high[3];   ///< m, box that holds them
+    double mean_force;        ///< N, mean magnitude of a contact force
+    double unbalanced_ratio;  ///< mean resultant on a grain that touches something over it
 } scree_average_sample;
 
 /// Grains and contacts of a state. model: that of the stage, with the gravity that acts. Errors: memory.

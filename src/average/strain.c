@@ -2,6 +2,7 @@
 #include "average/strain.h"
 
 #include "average/tensor.h"
+#include "base/matrix.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,13 +10,39 @@
 
 // ---- displacements -----------------------------------------------------------------------------------------------
 
+/// Whole lattice vectors nearest to a way, along the directions in which the sample repeats itself.
+static void whole_steps(uint64_t directions, const double inverse[9], const double way[3], double steps[3])
+{
+    scree_matrix_apply(inverse, way, steps);
+    for (int k = 0; k < 3; k++) steps[k] = directions >> k & 1 ? round(steps[k]) : 0;
+}
+
+/// What a grain has moved by. Where the sample repeats itself its image then is taken from which it came with the least
+/// way relative to the lattice: bodies leave a cell on one side and come back on the other.
+static void find_displacement(const scree_average_sample *sample, const scree_average_sample *before,
+                              double inverse[2][9], const scree_average_grain *was, scree_average_grain *grain)
+{
+    double then[3], now[3], steps[3], shift[3];
+    scree_subtract(grain->position, was->position, grain->displacement);
+    if (!sample->directions) return;
+    scree_matrix_apply(inverse[0], was->position, then);
+    scree_matrix_apply(inverse[1], grain->position, now);
+    for (int k = 0; k < 3; k++) steps[k] = sample->directions >> k & 1 ? round(then[k] - now[k]) : 0;
+    scree_matrix_apply(before->lattice, steps, shift);
+    scree_along(grain->displacement, 1, shift, grain->displacement);
+}
+
 scree_status scree_average_move(scree_average_sample *sample, const scree_average_sample *before, scree_error *error)
 {
     size_t at = 0, moved = 0;
-    if (sample->directions)
-        return scree_error_set(error, SCREE_ERROR_INPUT,
-                               "a sample that repeats itself has no displacements: bodies leave its cell on one side "
-                               "and come back on the other");
+    double inverse[2][9];
+    if (sample->directions != before->directions)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "one of both snapshots repeats itself in other directions");
+    if (sample->directions) {
+        scree_matrix_invert(before->lattice, inverse[0]);
+        scree_matrix_invert(sample->lattice, inverse[1]);
+        for (int k = 0; k < 9; k++) sample->lattice_change[k] = sample->lattice[k] - before->lattice[k];
+    }
     if (before->own) {
         scree_status status = scree_allocate(&sample->earlier, sample->bodies, sizeof *sample->earlier, error);
         if (status) return status;
@@ -25,7 +52,7 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
         scree_average_grain *grain = &sample->grain[p];
         while (at < before->bodies && before->grain[at].id < grain->id) at++;
         if (at == before->bodies || before->grain[at].id != grain->id) continue;
-        scree_subtract(grain->position, before->grain[at].position, grain->displacement);
+        find_displacement(sample, before, inverse, &before->grain[at], grain);
         grain->turn = grain->angle - before->grain[at].angle;
         grain->moved = true;
         if (before->own) memcpy(sample->earlier[p], before->own[at].moment, sizeof before->own[at].moment);
@@ -40,12 +67,12 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
 static scree_status list_contacts(scree_average_strain *strain, scree_error *error)
 {
     const scree_average_sample *sample = strain->sample;
-    scree_status status = scree_allocate(&strain->begin, sample->bodies + 2, sizeof *strain->begin, error);
-    if (!status) status = scree_allocate(&strain->contact, sample->contacts, sizeof *strain->contact, error);
+    scree_status status = scree_allocate(&strain->begin, sample->count + 2, sizeof *strain->begin, error);
+    if (!status) status = scree_allocate(&strain->contact, sample->contact_count, sizeof *strain->contact, error);
     if (status) return status;
-    for (size_t c = 0; c < sample->contacts; c++) strain->begin[sample->contact[c].first + 2]++;
-    for (size_t p = 2; p < sample->bodies + 2; p++) strain->begin[p] += strain->begin[p - 1];
-    for (size_t c = 0; c < sample->contacts; c++)
+    for (size_t c = 0; c < sample->contact_count; c++) strain->begin[sample->contact[c].first + 2]++;
+    for (size_t p = 2; p < sample->count + 2; p++) strain->begin[p] += strain->begin[p - 1];
+    for (size_t c = 0; c < sample->contact_count; c++)
         strain->contact[strain->begin[sample->contact[c].first + 1]++] = (uint32_t)c;
     return SCREE_OK;
 }
@@ -57,10 +84,10 @@ static scree_status make_cells(scree_average_strain *strain, scree_error *error)
     scree_assembly assembly = {.dimension = sample->dimension, .thickness = sample->thickness};
     double *moved = NULL;
     scree_error problem;
-    scree_status status = scree_allocate(&strain->place, 3 * sample->bodies, sizeof *strain->place, error);
-    if (!status) status = scree_allocate(&assembly.radius, sample->bodies, sizeof *assembly.radius, error);
-    if (!status) status = scree_allocate(&moved, 3 * sample->bodies, sizeof *moved, error);
-    for (size_t p = 0; p < sample->bodies && !status; p++) {
+    scree_status status = scree_allocate(&strain->place, 3 * sample->count, sizeof *strain->place, error);
+    if (!status) status = scree_allocate(&assembly.radius, sample->count, sizeof *assembly.radius, error);
+    if (!status) status = scree_allocate(&moved, 3 * sample->count, sizeof *moved, error);
+    for (size_t p = 0; p < sample->count && !status; p++) {
         const scree_average_grain *grain = &sample->grain[p];
         if (!grain->counted || !grain->moved || sample->own[p].contacts == 0) continue;
         scree_subtract(grain->position, grain->displacement, strain->place + 3 * assembly.count);
@@ -81,6 +108,7 @@ scree_status scree_average_strain_open(const scree_average_sample *sample, const
                                        scree_average_strain *strain, scree_error *error)
 {
     *strain = (scree_average_strain){.sample = sample, .bins = bins};
+    if (sample->directions) scree_matrix_invert(sample->lattice, strain->inverse);
     scree_status status = list_contacts(strain, error);
     if (!status) status = make_cells(strain, error);
     if (status) scree_average_strain_close(strain);
@@ -140,6 +168,18 @@ static void add_turn(const scree_average_grain *grain, const double lever[3], do
     sum[1] += sign * (lever[1] - (c * lever[1] - s * lever[0]));
 }
 
+/// The second body of a contact may be an image that is not in the list: what its lattice vector has changed by.
+static void add_image(const scree_average_strain *strain, const scree_average_contact *contact, double apart[3])
+{
+    const scree_average_sample *sample = strain->sample;
+    double way[3], steps[3], change[3];
+    scree_subtract(sample->grain[contact->first].position, contact->branch, way);
+    scree_subtract(way, sample->grain[contact->second].position, way);
+    whole_steps(sample->directions, strain->inverse, way, steps);
+    scree_matrix_apply(sample->lattice_change, steps, change);
+    scree_along(apart, -1, change, apart);
+}
+
 static void take_contact(gathering *g, const scree_average_contact *contact)
 {
     const scree_average_sample *sample = g->strain->sample;
@@ -149,6 +189,7 @@ static void take_contact(gathering *g, const scree_average_contact *contact)
     if (!scree_average_element_holds(g->element, sample->dimension, contact->point)) return;
     double apart[3], branch[3], lever[3];
     scree_subtract(first->displacement, second->displacement, apart);
+    if (sample->directions) add_image(g->strain, contact, apart);
     scree_subtract(contact->branch, apart, branch);
     fit_add(&g->cambou, apart, branch);
     if (sample->dimension == 3) return;

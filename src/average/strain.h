@@ -18,7 +18,8 @@
 /// All are exact for an affine motion u = G X, of any size; a finite rotation Q gives G = Q - 1, whose symmetric part
 /// is of second order. liao sees deformations of contacts: where grains turn with the whole it finds nothing at all of
 /// a rotation, and where they do not turn it is cambou. NAN: too few grains or contacts, or all on a line. A sample
-/// that repeats itself has none.
+/// that repeats itself takes each grain with the image that it came from: with x = H s, H the lattice, u = x - x_0 +
+/// H_0 round(s_0 - s), and images H n away have moved by (H - H_0) n more.
 #ifndef SCREE_AVERAGE_STRAIN_H
 #define SCREE_AVERAGE_STRAIN_H
 
@@ -33,11 +34,13 @@ typedef struct scree_average_strain {
     uint32_t *contact;     ///< numbers of contacts
     scree_cells cells;     ///< of the initial centres; none where there is no triangulation
     double (*gradient)[9]; ///< of each cell
+    double inverse[9];     ///< 1/m, of the lattice where the sample repeats itself
     double *place;         ///< m, initial centres of what the cells are made of, x 3
 } scree_average_strain;
 
 /// Displacements and turns of the grains of `sample` since `before`, by ids; where `before` is finished, their moments
-/// then, too. Errors: SCREE_ERROR_INPUT: it repeats itself, or no grain is in both; memory.
+/// then, too. Errors: SCREE_ERROR_INPUT: directions in which they repeat themselves differ, or no grain is in both;
+/// memory.
 scree_status scree_average_move(scree_average_sample *sample, const scree_average_sample *before,
                                 scree_error *error) SCREE_MUST_USE;
 

@@ -419,21 +419,23 @@ static const scree_verb run_verbs[] = {
             "dip of the vertical pressure, 1 - its value on the axis over its largest, with its interval and p, a pile "
             "and its mirror image being one sample.\n\n"
             "Writes `values.csv`, `cuts.csv`, `map.csv`, `kernel.csv`, `forces.csv`, `friction.csv`, `rose.csv`, "
-            "`dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md lists the columns, "
+            "`sizes.csv`, `scatter.csv`, `dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md "
+            "lists the columns, "
             "docs/theory/averages.md has the definitions. Stresses are tension positive, pressures the opposite.",
         .argument = {{"RUN", "folder of a finished run; several are an ensemble", SCREE_VALUE_FOLDER, false, true}},
         .option =
             {{.name = "fields",
               .value = "NAME,...",
-              .meaning = "density, coordination, stress, fabric, inertia, velocity, elastic (with --from)",
+              .meaning = "density, coordination, stress, fabric, inertia, velocity, kinetic (stress of the "
+                         "motion), elastic (with --from)",
               .preset = "density,coordination,stress,fabric"},
              {.name = "cuts",
               .value = "N|HEIGHTS",
               .meaning = "number of cuts, or their relative heights with commas, 0 lowest",
               .preset = "5"},
              {.name = "element",
-              .value = "GRAINS|LENGTH",
-              .meaning = "grains in an element at the mean density, or its side",
+              .value = "GRAINS|PART|LENGTH",
+              .meaning = "grains in an element at the mean density, a part of all (10 %), or its side",
               .preset = "150, a tenth of a sample below 1500"},
              {.name = "points", .value = "N", .meaning = "places along a cut, odd", .preset = "41"},
              {.name = "fit",
@@ -449,6 +451,13 @@ static const scree_verb run_verbs[] = {
               .value = "NXxNY[xNZ]",
               .meaning = "a map of so many elements, which may overlap; in 3D of two numbers the second is along "
                          "z, in the middle of y"},
+             {.name = "sizes",
+              .value = "N,...",
+              .meaning = "elements of so many grains about one place on the axis near the bottom, such as "
+                         "5,10,20,50,100,200,400,800: how many grains make an average"},
+             {.name = "two-slopes",
+              .meaning = "--fit takes piles with a slope of their own on each side, all built alike, and wedges"},
+             {.name = "mirror", .meaning = "cuts of each run are means of it and of its mirror image"},
              {.name = "kernel",
               .value = "WIDTH",
               .meaning = "smooth fields, at the points of --grid or 100x50 (50x50x50): radius of the support of "
@@ -459,7 +468,11 @@ static const scree_verb run_verbs[] = {
                          "the mean over its snapshots, or over the last N",
               .preset = "end"},
              {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
-             {.name = "threads", .letter = 't', .value = "N", .meaning = "for --kernel", .preset = "1"},
+             {.name = "threads",
+              .letter = 't',
+              .value = "N",
+              .meaning = "that find elements and smooth fields",
+              .preset = "1"},
              {.name = "output",
               .letter = 'o',
               .value = "DIR",

@@ -43,6 +43,36 @@ static scree_status find_means(const measure_tables *each, size_t count, measure
     return status;
 }
 
+/// A mean over some of the runs alone is not that of the others: a size that does not fit in one has none.
+static void leave_out(const scree_average_table *sizes, size_t count, measure_found *found)
+{
+    scree_average_table *const all[] = {&found->mean.of[MEASURE_SIZES], &found->low.of[MEASURE_SIZES],
+                                        &found->high.of[MEASURE_SIZES]};
+    for (size_t row = 0; row < sizes->rows; row++)
+        for (size_t i = 0; i < count; i++) {
+            if (isfinite(scree_average_table_get(&sizes[i], row, 2))) continue;
+            for (size_t t = 0; t < 3; t++)
+                for (size_t k = 2; k < all[t]->columns && row < all[t]->rows; k++)
+                    all[t]->value[row * all[t]->columns + k] = NAN;
+        }
+}
+
+/// What elements of each size scatter by from run to run.
+static scree_status find_scatter(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
+{
+    scree_average_table *same;
+    if (count < 2 || each[0].of[MEASURE_SIZES].rows == 0) return SCREE_OK;
+    scree_status status = scree_allocate(&same, count, sizeof *same, error);
+    for (size_t i = 0; i < count && !status; i++) same[i] = each[i].of[MEASURE_SIZES];
+    if (!status) leave_out(same, count, found);
+    if (!status) status = scree_average_sizes_scatter(same, count, &found->mean.of[MEASURE_SCATTER], error);
+    for (scree_average_sized k = 0; k < SCREE_AVERAGE_SIZED && !status; k++)
+        scree_average_sizes_exponent(same, count, k, &found->exponent[k][0], &found->exponent[k][1],
+                                     &found->exponent[k][2]);
+    scree_release(&same);
+    return status;
+}
+
 /// Profiles of a column of a cut, run by run, over the elements of which at least a given part lies in the sample.
 /// Those of the pressure of an ensemble are scaled by what a pile without voids of its bulk density and height would
 /// bear, where there is gravity, so that piles of other sizes weigh alike.
@@ -156,8 +186,12 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
                                 measure_found *found, scree_error *error)
 {
     scree_status status = SCREE_OK;
-    for (size_t k = 0; k < count && !status; k++) status = measure_run(runs[k], plan, &each[k], error);
+    measure_plan others = *plan;
+    others.network = NULL; // that of the first run is drawn
+    for (size_t k = 0; k < count && !status; k++)
+        status = measure_run(runs[k], k == 0 ? plan : &others, &each[k], error);
     if (!status) status = find_means(each, count, found, error);
+    if (!status) status = find_scatter(each, count, found, error);
     if (!status) status = find_dips(each, count, plan, found, error);
     if (!status && plan->fits > 0) status = measure_fit(each, count, plan, found, error);
     return status;
@@ -179,7 +213,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     if (count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no run is named");
     scree_status status = measure_plan_read(options, &plan, error);
     if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
-    plan.network = count == 1 && !plan.mean && !options->no_figures ? folder : NULL;
+    plan.network = !plan.mean && !options->no_figures ? folder : NULL;
     if (!status) status = scree_allocate(&each, count, sizeof *each, error);
     if (!status) status = measure_all(runs, count, &plan, each, &found, error);
     if (!status) {

@@ -5,6 +5,7 @@
 #include "average/cuts.h"
 #include "average/dip.h"
 #include "average/kernel.h"
+#include "average/sizes.h"
 #include "io/sample_file.h"
 #include "theory/fit.h"
 
@@ -19,6 +20,8 @@ typedef enum measure_product {
     MEASURE_FORCES,
     MEASURE_FRICTION,
     MEASURE_ROSE,
+    MEASURE_SIZES,
+    MEASURE_SCATTER, ///< of an ensemble alone
     MEASURE_PRODUCTS
 } measure_product;
 
@@ -47,7 +50,7 @@ typedef struct measure_fits {
     measure_fit_number number[MEASURE_FIT_NUMBERS];
     size_t rows;
     measure_fit_row *row;
-    double slope; ///< rad
+    double slope[2]; ///< rad, left and right
 } measure_fits;
 
 enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
@@ -57,14 +60,16 @@ enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
 typedef struct measure_plan {
     scree_average_plan average;
     bool element_given, kernel;
+    double share;            ///< of the grains of a run in an element, 0: the average says
     double kernel_width;     ///< m, 0: kernel_diameters
     double kernel_diameters; ///< mean diameters
     const char *at, *from;
     bool mean; ///< over all snapshots of the stage `at`
     int threads;
+    bool two_slopes;               ///< fits do not fold
     const char *fit[MEASURE_FITS]; ///< names of theories that are fitted
     size_t fits;
-    const char *network; ///< folder that the network of one run is drawn into; NULL: it is not
+    const char *network; ///< folder that the network of the run is drawn into; NULL: it is not
     const scree_measure_options *options;
 } measure_plan;
 
@@ -76,10 +81,11 @@ typedef struct measure_tables {
 typedef struct measure_found {
     size_t runs;
     measure_tables mean, low, high;
-    scree_average_dip *dip;        ///< a cut; NULL: no stress along cuts
-    scree_average_dip *strain_dip; ///< the same of the vertical strain; NULL: no elastic constants
-    measure_fits *fits;            ///< NULL: none was asked for
-    double dip_height;             ///< 1, relative height above which no dip is significant; NAN with one run
+    scree_average_dip *dip;                  ///< a cut; NULL: no stress along cuts
+    scree_average_dip *strain_dip;           ///< the same of the vertical strain; NULL: no elastic constants
+    measure_fits *fits;                      ///< NULL: none was asked for
+    double exponent[SCREE_AVERAGE_SIZED][3]; ///< of the scatter of the tensors against the size, with its interval
+    double dip_height;                       ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;
 
 /// Reads the options. Errors: SCREE_ERROR_INPUT with the option as field.
@@ -109,6 +115,9 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
 
 /// Draws it. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
+
+/// Draws averages against the size of their elements. Errors: SCREE_ERROR_IO; memory.
+scree_status measure_draw_sizes(const char *folder, const measure_found *found, scree_error *error);
 
 /// Draws elements as points in the plane of two of their numbers, where there are elastic constants. Errors:
 /// SCREE_ERROR_IO; memory.

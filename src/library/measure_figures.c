@@ -49,6 +49,7 @@ static const cut_figure cut_figures[] = {
     {"cuts-fabric-angle", "fabric_angle", "Major axis of the fabric tensor by height", "angle (degrees)", 1, 0},
     {"cuts-long-axis", "long_axis_angle", "Long axis of the mean inertia tensor by height", "angle (degrees)", 1, 0},
     {"cuts-velocity", "velocity_x", "Horizontal velocity by height", "velocity x (m/s)", 1, 0},
+    {"cuts-kinetic", "kinetic_yy", "Stress of the motion by height", "vertical pressure of the motion (Pa)", -1, 0},
     {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "vertical strain, compression positive", -1, 0},
     {"cuts-bulk-modulus", "bulk_modulus", "Bulk modulus by height, elements more than half inside", "K (MPa)", 1e-6,
      0.5},
@@ -355,6 +356,7 @@ scree_status measure_draw(const char *folder, const measure_plan *plan, const me
     if (!status) status = draw_distribution(folder, found, error);
     if (!status) status = draw_friction(folder, found, error);
     if (!status) status = draw_rose(folder, found, error);
+    if (!status) status = measure_draw_sizes(folder, found, error);
     if (!status && found->fits) status = measure_fit_draw(folder, plan, found->fits, error);
     return status ? status : measure_draw_clouds(folder, plan, found, error);
 }

@@ -9,6 +9,9 @@
 /// Student's t: each pile is left out once, with its place in slope and height. They do not rest on the independence of
 /// elements, on which chi^2, its probability and AIC do.
 ///
+/// With two slopes nothing is folded: x goes from the apex of the triangle of the same area, height of the centre of
+/// mass, feet and centre of mass, whose slopes the wedges take; runs have to be built alike, to the same side.
+///
 /// mohr_coulomb: ((xx - yy)^2 + 4 xy^2) / ((xx + yy)^2 sin^2 slope) - 1 (R 4.2): 0 where the pile yields, below where
 /// it does not. The axis is what lies within AXIS of the half width, the flank between FLANK and FLANK_END.
 #include "library/measure.h"
@@ -61,18 +64,20 @@ static double mean_value(const piles *p, const char *name)
     return sum / number;
 }
 
-/// Component of pile i at place j of a cut, mean of both sides, in the frame of the theories.
-static double folded(const piles *p, size_t i, size_t cut, size_t j, int component)
+/// Component of pile i at place j of a cut, mean of both sides unless there are two slopes, in the frame of the
+/// theories.
+static double folded(const piles *p, size_t i, size_t cut, long j, int component)
 {
     const size_t points = p->plan->average.points, middle = cut * points + points / 2;
     const scree_average_table *cuts = &p->each[i].of[MEASURE_CUTS];
-    const double right = scree_average_table_get(cuts, middle + j, p->column[component]);
-    const double left = scree_average_table_get(cuts, middle - j, p->column[component]);
+    const double right = scree_average_table_get(cuts, middle + (size_t)j, p->column[component]);
+    const double left = scree_average_table_get(cuts, middle - (size_t)j, p->column[component]);
+    if (p->plan->two_slopes) return component < 2 ? -right : right;
     return component < 2 ? -0.5 * (right + left) : 0.5 * (right - left);
 }
 
 /// Mean and standard error of the mean.
-static double mean_folded(const piles *p, size_t cut, size_t j, int component, double *error)
+static double mean_folded(const piles *p, size_t cut, long j, int component, double *error)
 {
     double sum = 0, squares = 0, number = 0;
     for (size_t i = 0; i < p->count; i++) {
@@ -107,7 +112,9 @@ static size_t lay_out(const piles *p, measure_fit_row *row)
 {
     const scree_average_table *mean = &p->found->mean.of[MEASURE_CUTS];
     const size_t points = p->plan->average.points;
+    const bool two = p->plan->two_slopes;
     const double side = mean_value(p, "element_side"), tip = mean_value(p, "triangle_height");
+    const double apex = two ? mean_value(p, "triangle_apex") : 0;
     size_t count = 0;
     double last_y = -INFINITY;
     for (size_t cut = 0; cut < p->plan->average.cuts; cut++) {
@@ -115,12 +122,13 @@ static size_t lay_out(const piles *p, measure_fit_row *row)
         const double y = scree_average_table_get(mean, middle, p->y);
         const bool apart = y - last_y >= 0.999 * side;
         double last_x = -INFINITY;
-        for (size_t j = 0; j <= points / 2; j++) {
+        for (long j = two ? -(long)(points / 2) : 0; j <= (long)(points / 2); j++) {
+            const size_t here = middle + (size_t)j, there = two ? here : middle - (size_t)j;
             const double x =
-                scree_average_table_get(mean, middle + j, p->x) - scree_average_table_get(mean, middle, p->x);
+                scree_average_table_get(mean, here, p->x) - scree_average_table_get(mean, middle, p->x) - apex;
             measure_fit_row *r = &row[count];
-            if (scree_average_table_get(mean, middle + j, p->inside) < WHOLE ||
-                scree_average_table_get(mean, middle - j, p->inside) < WHOLE)
+            if (scree_average_table_get(mean, here, p->inside) < WHOLE ||
+                scree_average_table_get(mean, there, p->inside) < WHOLE)
                 continue;
             *r = (measure_fit_row){.cut = cut, .point = {.x = x, .y = tip - y}};
             for (int c = 0; c < COMPONENTS; c++)
@@ -140,21 +148,22 @@ static size_t lay_out(const piles *p, measure_fit_row *row)
 /// Where searches begin.
 static const double eta_begins[] = {0.5, 0.74, 0.95}, core_begins[] = {0.45, 0.62, 0.8};
 
-static scree_status begin_fit(const char *theory, double slope, double weight, int attempt, scree_fit *fit,
+static scree_status begin_fit(const char *theory, const double slope[2], double weight, int attempt, scree_fit *fit,
                               scree_error *error)
 {
     scree_status status = scree_fit_begin(theory, fit, error);
     if (!status) status = scree_fit_set(fit, "weight", weight, true, error);
-    if (!status && scree_fit_find(fit, "slope")) status = scree_fit_set(fit, "slope", slope, false, error);
-    if (!status && scree_fit_find(fit, "slope_left")) status = scree_fit_set(fit, "slope_left", slope, false, error);
-    if (!status && scree_fit_find(fit, "slope_right")) status = scree_fit_set(fit, "slope_right", slope, false, error);
+    if (!status && scree_fit_find(fit, "slope")) status = scree_fit_set(fit, "slope", slope[0], false, error);
+    if (!status && scree_fit_find(fit, "slope_left")) status = scree_fit_set(fit, "slope_left", slope[0], false, error);
+    if (!status && scree_fit_find(fit, "slope_right"))
+        status = scree_fit_set(fit, "slope_right", slope[1], false, error);
     if (!status && scree_fit_find(fit, "eta")) status = scree_fit_set(fit, "eta", eta_begins[attempt], true, error);
     if (!status && scree_fit_find(fit, "core")) status = scree_fit_set(fit, "core", core_begins[attempt], true, error);
     return status;
 }
 
 /// The best of several beginnings; false: it has no solution from any of them.
-static bool solve(const char *theory, double slope, double weight, size_t count, const scree_fit_point *points,
+static bool solve(const char *theory, const double slope[2], double weight, size_t count, const scree_fit_point *points,
                   scree_fit *best)
 {
     bool found = false;
@@ -217,14 +226,16 @@ static void tell_fit(measure_fits *fits, size_t k, const scree_fit *fit, bool so
 
 static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *error)
 {
-    const double slope = mean_value(p, "triangle_slope") * DEGREE, weight = mean_value(p, "weight_density");
+    const bool two = p->plan->two_slopes;
+    const double weight = mean_value(p, "weight_density");
     scree_fit_point *fitted = NULL, *all = NULL;
     scree_stress_2d *stress = NULL;
     size_t count = 0;
     scree_status status = scree_allocate(&fitted, fits->rows, sizeof *fitted, error);
     if (!status) status = scree_allocate(&all, fits->rows, sizeof *all, error);
     if (!status) status = scree_allocate(&stress, fits->rows, sizeof *stress, error);
-    fits->slope = slope;
+    fits->slope[0] = mean_value(p, two ? "triangle_slope_left" : "triangle_slope") * DEGREE;
+    fits->slope[1] = mean_value(p, two ? "triangle_slope_right" : "triangle_slope") * DEGREE;
     for (size_t k = 0; k < fits->rows && !status; k++) {
         all[k] = fits->row[k].point;
         if (fits->row[k].fitted) fitted[count++] = all[k];
@@ -232,7 +243,7 @@ static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *err
     for (size_t k = 0; k < fits->count && !status; k++) {
         scree_fit fit;
         scree_error ignored = {0};
-        bool solved = solve(fits->theory[k], slope, weight, count, fitted, &fit);
+        bool solved = solve(fits->theory[k], fits->slope, weight, count, fitted, &fit);
         if (solved) solved = scree_fit_stress(&fit, fits->rows, all, stress, &ignored) == SCREE_OK;
         if (!solved) status = scree_fit_begin(fits->theory[k], &fit, error);
         for (size_t i = 0; i < fits->rows && solved; i++) fits->row[i].theory[k] = stress[i];
@@ -247,8 +258,11 @@ static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *err
 
 // ---- closures ----------------------------------------------------------------------------------------------------
 
-static double mohr_coulomb(const scree_stress_2d *s, double slope)
+/// Each side with its own slope.
+static double mohr_coulomb(const measure_fits *fits, const scree_fit_point *point)
 {
+    const scree_stress_2d *s = &point->stress;
+    const double slope = fits->slope[point->x < 0 ? 0 : 1];
     return (pow(s->xx - s->yy, 2) + 4 * s->xy * s->xy) / pow((s->xx + s->yy) * sin(slope), 2) - 1;
 }
 
@@ -258,9 +272,9 @@ static void tell_closure(measure_fits *fits, const char *where, double from, dou
     double yielding = 0, ratio = 0, number = 0;
     for (size_t k = 0; k < fits->rows; k++) {
         const measure_fit_row *r = &fits->row[k];
-        const double place = r->point.x / half;
+        const double place = fabs(r->point.x) / half;
         if (r->cut != 0 || place < from || place > to) continue;
-        yielding += mohr_coulomb(&r->point.stress, fits->slope);
+        yielding += mohr_coulomb(fits, &r->point);
         ratio += r->point.stress.xx / r->point.stress.yy;
         number++;
     }
@@ -281,7 +295,7 @@ static scree_status find_numbers(measure_fits *fits, const piles *p, scree_error
         return refuse(error, "the piles are too small for their elements: fewer than two lie within them side by side "
                              "(--element)");
     scree_status status = fit_all(fits, p, error);
-    const double half = mean_value(p, "triangle_height") / tan(fits->slope);
+    const double half = mean_value(p, "triangle_height") * 0.5 * (1 / tan(fits->slope[0]) + 1 / tan(fits->slope[1]));
     tell_closure(fits, "axis", 0, AXIS, half);
     tell_closure(fits, "flank", FLANK, FLANK_END, half);
     return status;
@@ -337,6 +351,9 @@ scree_status measure_fit(const measure_tables *each, size_t count, const measure
         return refuse(error, "fits need stresses along cuts (--fields stress) of a plane sample");
     if (height == SIZE_MAX || !(values->value[height] > 0))
         return refuse(error, "fits are of plane piles under gravity");
+    for (size_t k = 0; k < plan->fits && plan->two_slopes; k++)
+        if (strncmp(plan->fit[k], "wedge", 5) != 0)
+            return refuse(error, "only the wedges have two slopes: --two-slopes with --fit wedge");
     scree_status status = scree_allocate(&found->fits, 1, sizeof *found->fits, error);
     if (status) return status;
     found->fits->count = plan->fits;
@@ -361,7 +378,7 @@ static void put_rows(FILE *file, const measure_plan *plan, const measure_fits *f
         const measure_fit_row *r = &fits->row[i];
         const scree_stress_2d *s = &r->point.stress, *e = &r->point.error;
         fprintf(file, "%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", plan->average.height[r->cut], r->point.x,
-                r->point.y, r->fitted, mohr_coulomb(s, fits->slope), s->xx, s->yy, s->xy, e->xx, e->yy, e->xy);
+                r->point.y, r->fitted, mohr_coulomb(fits, &r->point), s->xx, s->yy, s->xy, e->xx, e->yy, e->xy);
         for (size_t k = 0; k < fits->count; k++) {
             const scree_stress_2d *t = &r->theory[k];
             const double none = fits->solved[k] ? 1 : NAN;
@@ -396,7 +413,7 @@ scree_status measure_fit_write(const char *folder, const measure_plan *plan, con
 
 /// A component of the lowest cut with the theories.
 static scree_status draw_component(const char *folder, const char *file, const char *label, int component,
-                                   const measure_fits *fits, scree_error *error)
+                                   const measure_plan *plan, const measure_fits *fits, scree_error *error)
 {
     char path[PATH_MAX], name[CHART_LINES][32];
     double *number = NULL;
@@ -430,7 +447,7 @@ static scree_status draw_component(const char *folder, const char *file, const c
         lines++;
     }
     const scree_chart chart = {.title = "Lowest cut and the fitted theories",
-                               .x_label = "distance from the axis (mm)",
+                               .x_label = plan->two_slopes ? "x from the apex (mm)" : "distance from the axis (mm)",
                                .y_label = label,
                                .line = line,
                                .line_count = lines};
@@ -452,7 +469,7 @@ static scree_status draw_yielding(const char *folder, const measure_plan *plan, 
     for (size_t i = 0; i < fits->rows; i++) {
         const measure_fit_row *r = &fits->row[i];
         number[i] = 1e3 * r->point.x;
-        number[fits->rows + i] = mohr_coulomb(&r->point.stress, fits->slope);
+        number[fits->rows + i] = mohr_coulomb(fits, &r->point);
         const bool first = i == 0 || fits->row[i - 1].cut != r->cut;
         if (first && lines == CHART_LINES) break;
         if (first) {
@@ -463,7 +480,7 @@ static scree_status draw_yielding(const char *folder, const measure_plan *plan, 
         line[lines - 1].count++;
     }
     const scree_chart chart = {.title = "Mohr-Coulomb expression by height: 0 where the pile yields",
-                               .x_label = "distance from the axis (mm)",
+                               .x_label = plan->two_slopes ? "x from the apex (mm)" : "distance from the axis (mm)",
                                .y_label = "((xx - yy)^2 + 4 xy^2) / ((xx + yy)^2 sin^2 slope) - 1",
                                .line = line,
                                .line_count = lines};
@@ -475,8 +492,8 @@ static scree_status draw_yielding(const char *folder, const measure_plan *plan, 
 scree_status measure_fit_draw(const char *folder, const measure_plan *plan, const measure_fits *fits,
                               scree_error *error)
 {
-    scree_status status = draw_component(folder, "fits-vertical", "vertical pressure (kPa)", 1, fits, error);
-    if (!status) status = draw_component(folder, "fits-horizontal", "horizontal pressure (kPa)", 0, fits, error);
-    if (!status) status = draw_component(folder, "fits-shear", "shear stress (kPa)", 2, fits, error);
+    scree_status status = draw_component(folder, "fits-vertical", "vertical pressure (kPa)", 1, plan, fits, error);
+    if (!status) status = draw_component(folder, "fits-horizontal", "horizontal pressure (kPa)", 0, plan, fits, error);
+    if (!status) status = draw_component(folder, "fits-shear", "shear stress (kPa)", 2, plan, fits, error);
     return status ? status : draw_yielding(folder, plan, fits, error);
 }

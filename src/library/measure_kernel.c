@@ -78,9 +78,21 @@ static void tell_changes(const scree_average_kernel *kernel, const changes *c, s
     scree_average_table_take(table, "elastic_misfit", "1", found.misfit);
 }
 
+static void tell_kinetic(const scree_average_kernel *kernel, size_t point, scree_average_table *table)
+{
+    const size_t d = (size_t)kernel->dimension;
+    double stress[9];
+    char name[32];
+    scree_average_kernel_kinetic(kernel, point, stress);
+    for (size_t a = 0; a < d * d; a++) {
+        (void)snprintf(name, sizeof name, "kinetic_%c%c", "xyz"[a / d], "xyz"[a % d]);
+        scree_average_table_take(table, name, "Pa", stress[a]);
+    }
+}
+
 /// Rows of the smooth fields.
-static scree_status fill_kernel_table(const scree_average_kernel *kernel, const changes *c, scree_average_table *table,
-                                      scree_error *error)
+static scree_status fill_kernel_table(const scree_average_kernel *kernel, const changes *c, bool kinetic,
+                                      scree_average_table *table, scree_error *error)
 {
     const size_t d = (size_t)kernel->dimension, *n = kernel->points.number;
     char name[32];
@@ -106,6 +118,7 @@ static scree_status fill_kernel_table(const scree_average_kernel *kernel, const 
             (void)snprintf(name, sizeof name, "velocity_%c", "xyz"[a]);
             scree_average_table_take(table, name, "m/s", kernel->momentum[d * p + a] / kernel->density[p]);
         }
+        if (kinetic) tell_kinetic(kernel, p, table);
         if (c->earlier) tell_changes(kernel, c, p, table);
         status = scree_average_table_end_row(table, error);
     }
@@ -128,7 +141,9 @@ scree_status measure_kernel(const scree_average_sample *before, const scree_aver
     scree_average_table_take(values, "kernel_residual", "1", balance.residual / balance.scale);
     scree_average_table_take(values, "kernel_imbalance", "1", balance.rest / balance.scale);
     status = find_changes(before, sample, width, &points, plan->threads, &c, error);
-    if (!status) status = fill_kernel_table(&kernel, &c, &tables->of[MEASURE_KERNEL], error);
+    if (!status)
+        status = fill_kernel_table(&kernel, &c, plan->average.fields & SCREE_AVERAGE_KINETIC,
+                                   &tables->of[MEASURE_KERNEL], error);
     scree_average_kernel_destroy(&kernel);
     scree_release(&c.earlier);
     scree_release(&c.displacement);

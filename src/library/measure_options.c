@@ -33,7 +33,7 @@ static bool read_number(const char *text, double *value)
 
 static scree_status read_fields(const char *text, unsigned *fields, scree_error *error)
 {
-    const char *accepted = "density, coordination, stress, fabric, inertia, velocity, elastic";
+    const char *accepted = "density, coordination, stress, fabric, inertia, velocity, elastic, kinetic";
     *fields = 0;
     for (const char *at = text; *at;) {
         const size_t length = strcspn(at, ",");
@@ -72,6 +72,23 @@ static scree_status read_cuts(const char *text, scree_average_plan *plan, scree_
     return plan->cuts > 0 ? SCREE_OK : refuse(error, "cuts", accepted, "no cut is named");
 }
 
+static scree_status read_sizes(const char *text, scree_average_plan *plan, scree_error *error)
+{
+    const char *accepted = "numbers of grains that grow, with commas, such as 5,10,20,50,100,200,400,800; up to 32";
+    plan->sizes = 0;
+    for (const char *at = text; *at;) {
+        char *end;
+        const double value = strtod(at, &end);
+        const double last = plan->sizes > 0 ? plan->size[plan->sizes - 1] : 0;
+        if (end == at || (*end && *end != ',') || !(value >= 1 && value > last && value < 1e12) ||
+            plan->sizes == SCREE_AVERAGE_SIZES)
+            return refuse(error, "sizes", accepted, "'%s' says no sizes of elements", text);
+        plan->size[plan->sizes++] = value;
+        at = end + (*end == ',');
+    }
+    return plan->sizes > 0 ? SCREE_OK : refuse(error, "sizes", accepted, "no size is named");
+}
+
 /// Names of theories; `wedge` are all four of them.
 static scree_status read_fits(const char *text, measure_plan *plan, scree_error *error)
 {
@@ -95,10 +112,15 @@ static scree_status read_fits(const char *text, measure_plan *plan, scree_error 
     return plan->fits > 0 ? SCREE_OK : refuse(error, "fit", accepted, "no theory is named");
 }
 
-static scree_status read_element(const char *text, scree_average_plan *plan, scree_error *error)
+static scree_status read_element(const char *text, measure_plan *whole, scree_error *error)
 {
-    const char *accepted = "a number of grains, such as 150, or a length, such as 30 mm";
+    const char *accepted = "a number of grains, such as 150, a part of all, such as 10 %, or a length, such as 30 mm";
+    scree_average_plan *plan = &whole->average;
     scree_error problem = {0};
+    const size_t length = strlen(text);
+    if (length > 1 && text[length - 1] == '%' && !scree_units_parse(text, "1", &whole->share, &problem))
+        return whole->share > 0 && whole->share < 1 ? SCREE_OK
+                                                    : refuse(error, "element", accepted, "'%s' is no part", text);
     if (read_number(text, &plan->grains))
         return plan->grains >= 1 ? SCREE_OK : refuse(error, "element", accepted, "'%s' are no grains", text);
     if (scree_units_parse(text, "m", &plan->side, &problem) || !(plan->side > 0))
@@ -147,6 +169,7 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
                            .at = options->at ? options->at : "end",
                            .from = options->from,
                            .threads = options->threads,
+                           .two_slopes = options->two_slopes,
                            .element_given = options->element != NULL};
     plan->mean = strncmp(plan->at, mean, sizeof mean - 1) == 0;
     if (plan->mean) plan->at += sizeof mean - 1;
@@ -162,8 +185,10 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
         status = refuse(error, "fields", "elastic with --from: start, #N, or a stage",
                         "elastic constants need two states of the run: say the earlier one");
     if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
-    if (!status && options->element) status = read_element(options->element, &plan->average, error);
+    if (!status && options->element) status = read_element(options->element, plan, error);
     if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);
+    if (!status && options->sizes) status = read_sizes(options->sizes, &plan->average, error);
+    plan->average.threads = options->threads;
     if (!status && options->kernel) status = read_kernel(options->kernel, plan, error);
     if (!status && options->fit) status = read_fits(options->fit, plan, error);
     if (!status) status = read_axis(options->axis ? options->axis : "mass", &plan->average, error);

@@ -4,6 +4,7 @@
 #include "average/chains.h"
 #include "average/force_statistics.h"
 #include "average/increment.h"
+#include "average/profile.h"
 #include "base/units.h"
 
 #include <math.h>
@@ -80,21 +81,60 @@ static scree_status find_mark(const char *directory, const char *option, const c
 
 // ---- tables ------------------------------------------------------------------------------------------------------
 
-/// The triangle that a plane pile is to theories: its area, and its height three times that of the centre of mass.
+/// Moments of the grains of a heap between its feet, what has rolled away left out.
+typedef struct heap_moments {
+    double mass, height, along, skewness; ///< kg; m above the base; m of x; m3, third central moment of x
+} heap_moments;
+
+static heap_moments find_moments(const scree_average_view *view)
+{
+    const scree_average_sample *sample = view->sample;
+    heap_moments m = {0};
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t p = 0; p < sample->bodies; p++) {
+            const scree_average_grain *grain = &sample->grain[p];
+            const double x = grain->position[0];
+            if (!grain->counted || x < view->surface.left || x > view->surface.right) continue;
+            if (pass == 0) {
+                m.mass += grain->mass;
+                m.height += grain->mass * (grain->position[1] - view->frame.base);
+                m.along += grain->mass * x;
+            } else {
+                m.skewness += grain->mass / m.mass * pow(x - m.along / m.mass, 3);
+            }
+        }
+    m.height /= m.mass;
+    m.along /= m.mass;
+    return m;
+}
+
+/// Distance of the apex of a triangle from the middle of its base b [m] by the third moment of its x, which is
+/// -e (9 b^2 / 4 - e^2) / 135.
+static double find_lean(double base, double skewness)
+{
+    double low = -0.5 * base, high = 0.5 * base;
+    for (int k = 0; k < 60; k++) {
+        const double e = 0.5 * (low + high), found = -e * (2.25 * base * base - e * e) / 135;
+        *(found > skewness ? &low : &high) = e;
+    }
+    return 0.5 * (low + high);
+}
+
+/// The triangle that a plane pile is to theories: its area, and its height three times that of the centre of mass; with
+/// two slopes the apex by the third moment of x and the middle of the base by the centre of mass. Feet have no part in
+/// it: a few grains that lie before one would move the apex by a multiple of their distance.
 static void tell_triangle(const scree_average_view *view, scree_average_table *values)
 {
     const scree_average_sample *sample = view->sample;
-    double mass = 0, moment = 0;
-    for (size_t p = 0; p < sample->bodies; p++) {
-        const scree_average_grain *grain = &sample->grain[p];
-        if (!grain->counted) continue;
-        mass += grain->mass;
-        moment += grain->mass * (grain->position[1] - view->frame.base);
-    }
-    const bool plane = sample->dimension == 2 && view->weight > 0 && moment > 0;
-    const double height = plane ? 3 * moment / mass : NAN, area = view->surface.volume;
+    const heap_moments m = find_moments(view);
+    const bool plane = sample->dimension == 2 && view->weight > 0 && m.height > 0;
+    const double height = plane ? 3 * m.height : NAN, area = view->surface.volume, half = area / height;
+    const double lean = plane ? find_lean(2 * half, m.skewness) : NAN;
     scree_average_table_take(values, "triangle_height", "m", height);
-    scree_average_table_take(values, "triangle_slope", "degree", atan(height * height / area) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_slope", "degree", atan(height / half) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_slope_left", "degree", atan(height / (half + lean)) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_slope_right", "degree", atan(height / (half - lean)) * 180 / M_PI);
+    scree_average_table_take(values, "triangle_apex", "m", m.along + 2 * lean / 3 - view->frame.axis);
     scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
 }
 
@@ -159,9 +199,14 @@ static scree_status measure_view(scree_average_sample *before, scree_average_sam
                                  const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
                                  scree_error *error)
 {
-    scree_average_table *values = &tables->of[MEASURE_VALUES];
-    scree_status status = scree_average_table_begin_row(values, error);
+    scree_average_table *values = &tables->of[MEASURE_VALUES], *cuts = &tables->of[MEASURE_CUTS];
+    scree_status status = scree_average_cuts_table(view, &plan->average, cuts, error);
+    if (!status) status = scree_average_table_begin_row(values, error);
     if (!status) tell_whole(view, values);
+    if (!status) scree_average_profile_tell(cuts, plan->average.points, scree_average_table_take, values);
+    if (!status && plan->options->mirror) scree_average_profile_mirror(cuts, plan->average.points);
+    if (!status) scree_average_profile_forces(view, scree_average_table_take, values);
+    if (!status && plan->average.sizes > 0) scree_average_sizes_tell(view, scree_average_table_take, values);
     if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
     if (!status) status = tell_chains(sample, plan, values, error);
     if (!status)
@@ -169,7 +214,8 @@ static scree_status measure_view(scree_average_sample *before, scree_average_sam
                                  error);
     if (!status && plan->kernel) status = measure_kernel(before, sample, view, plan, tables, error);
     if (!status) status = scree_average_table_end_row(values, error);
-    if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);
+    if (!status && plan->average.sizes > 0)
+        status = scree_average_sizes_table(view, &plan->average, &tables->of[MEASURE_SIZES], error);
     if (!status && plan->average.grid[0] > 0)
         status = scree_average_map_table(view, &plan->average, &tables->of[MEASURE_MAP], error);
     if (!status) status = scree_average_forces_table(sample, &tables->of[MEASURE_FORCES], error);
@@ -209,6 +255,21 @@ static scree_status move(const char *directory, const scree_snapshot_mark *from,
     return status ? status : scree_average_move(sample, before, error);
 }
 
+/// m, by which kernels reach out of a cell.
+static double margin_of(const measure_plan *plan, const scree_average_sample *sample)
+{
+    return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius) + 4 * sample->mean_radius;
+}
+
+/// What cannot be averaged over is a matter of the snapshot.
+static scree_status name_snapshot(scree_status status, scree_error *error)
+{
+    if (status != SCREE_ERROR_INPUT || !error) return status;
+    (void)snprintf(error->field, sizeof error->field, "--at");
+    (void)snprintf(error->accepted, sizeof error->accepted, "another snapshot: end, #N, or a stage");
+    return status;
+}
+
 /// frame: where places are, found by the first one of several; NULL: there is one.
 static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
                                      const scree_snapshot_mark *from, const measure_plan *plan, bool first,
@@ -221,14 +282,14 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
     status = move(directory, from, plan, &before, &sample, error);
-    if (!status) status = scree_average_sample_finish(&sample, error);
+    if (!status) status = name_snapshot(scree_average_sample_finish(&sample, error), error);
+    if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample.counted);
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
     // Kernels reach out of a periodic cell as far as they are wide, branches included.
-    if (!status && own.kernel)
-        status = scree_average_sample_repeat(
-            &sample, fmax(own.kernel_width, 2 * own.kernel_diameters * sample.mean_radius) + 4 * sample.mean_radius,
-            error);
+    if (!status && own.kernel) status = scree_average_sample_repeat(&sample, margin_of(&own, &sample), error);
+    if (!status && own.kernel && before.own)
+        status = scree_average_sample_repeat(&before, margin_of(&own, &sample), error);
     if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
     if (!status) {
         if (first && frame) *frame = view.frame;

@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *const measure_files[MEASURE_PRODUCTS] = {"values.csv", "cuts.csv",     "map.csv", "kernel.csv",
-                                                     "forces.csv", "friction.csv", "rose.csv"};
+const char *const measure_files[MEASURE_PRODUCTS] = {"values.csv", "cuts.csv",   "map.csv",
+                                                     "kernel.csv", "forces.csv", "friction.csv",
+                                                     "rose.csv",   "sizes.csv",  "scatter.csv"};
 
 /// A header with units, and rows; of an ensemble every number with both ends of its band behind it.
 static void write_rows(FILE *file, const scree_average_table *mean, const scree_average_table *low,
@@ -90,7 +91,7 @@ static void set_warnings(scree_summary *summary, const scree_average_table *valu
 /// A number of a dip.
 static void set_part(scree_summary *summary, const char *name, const char *part, double value)
 {
-    char whole[64];
+    char whole[96];
     (void)snprintf(whole, sizeof whole, "%s%s", name, part);
     scree_summary_set_number(summary, whole, value);
 }
@@ -131,6 +132,12 @@ static void set_values(scree_summary *summary, const measure_found *found)
         if (isnan(n->low)) continue;
         set_part(summary, n->name, "_low", n->low);
         set_part(summary, n->name, "_high", n->high);
+    }
+    for (int k = 0; found->mean.of[MEASURE_SCATTER].rows > 0 && k < SCREE_AVERAGE_SIZED; k++) {
+        (void)snprintf(name, sizeof name, "rve_%s_exponent", scree_average_sized_names[k]);
+        set_part(summary, name, "", found->exponent[k][0]);
+        set_part(summary, name, "_low", found->exponent[k][1]);
+        set_part(summary, name, "_high", found->exponent[k][2]);
     }
     // One sample has that of strains among its values.
     set_dip(summary, "strain_dip", found->strain_dip, found->runs > 1);

@@ -29,6 +29,9 @@ scree_measure_options scree_ensemble_options(const scree_sweep_ensemble *ensembl
                                    .from = said(ensemble->from),
                                    .axis = said(ensemble->axis),
                                    .fit = said(ensemble->fit),
+                                   .sizes = said(ensemble->sizes),
+                                   .mirror = ensemble->mirror,
+                                   .two_slopes = ensemble->two_slopes,
                                    .points = (long)ensemble->points,
                                    .threads = 1};
 }

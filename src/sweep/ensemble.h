@@ -14,7 +14,9 @@
 #include "sweep/findings.h"
 #include "sweep/sweep.h"
 
-#define SCREE_ENSEMBLE_PREFIX "ensemble_"
+#define SCREE_ENSEMBLE_PREFIX  "ensemble_"
+#define SCREE_ENSEMBLE_FIGURES "figures.txt" /* names of the figures that a report shows, beside them */
+#define SCREE_ENSEMBLE_USUAL   "cuts-pressure-scaled"
 
 /// A result of an ensemble.
 typedef struct scree_ensemble_value {

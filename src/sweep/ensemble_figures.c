@@ -23,22 +23,43 @@ static scree_status copy_file(const char *from, const char *to, scree_error *err
     return status ? status : scree_replace_finish(to, file, whole, error);
 }
 
-/// The figure of a point, if it has one.
-static scree_status put_figure(const scree_finding *f, const char *folder, const char *link, FILE *page,
-                               scree_error *error)
+/// A figure of a point, if it has it.
+static scree_status put_figure(const scree_finding *f, const char *figure, bool usual, const char *folder,
+                               const char *link, FILE *page, scree_error *error)
 {
-    char from[PATH_MAX], to[PATH_MAX], file[320];
+    char from[PATH_MAX], to[PATH_MAX], name[128], file[480];
     const char *point = f->label[0] ? f->label : "all";
-    scree_status status = scree_path_join(from, sizeof from, f->ensemble, "cuts-pressure-scaled.png", error);
+    (void)snprintf(name, sizeof name, "%s.png", figure);
+    scree_status status = scree_path_join(from, sizeof from, f->ensemble, name, error);
     if (status || access(from, R_OK) != 0) return status;
-    (void)snprintf(file, sizeof file, "%s-%s-%s.png", f->name, point, form_names[f->form]);
+    (void)snprintf(file, sizeof file, "%s-%s-%s%s%s.png", f->name, point, form_names[f->form], usual ? "" : "-",
+                   usual ? "" : figure);
     status = scree_folders_make(folder, error);
     if (!status) status = scree_path_join(to, sizeof to, folder, file, error);
     if (!status) status = copy_file(from, to, error);
-    if (!status)
-        (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: mean of %zu runs with bands of 95 %%.*\n",
-                      f->name, point, form_names[f->form], link, file, f->name, point, form_names[f->form],
-                      scree_ensemble_runs(f->ensemble));
+    if (status) return status;
+    (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: ", f->name, point, form_names[f->form], link,
+                  file, f->name, point, form_names[f->form]);
+    if (strcmp(figure, "chains") == 0)
+        (void)fprintf(page, "the first run.*\n");
+    else
+        (void)fprintf(page, "mean of %zu runs with bands of 95 %%.*\n", scree_ensemble_runs(f->ensemble));
+    return status;
+}
+
+/// Those that the sweep names, else the pressure by height.
+static scree_status put_figures(const scree_finding *f, const char *folder, const char *link, FILE *page,
+                                scree_error *error)
+{
+    char path[PATH_MAX], names[400] = SCREE_ENSEMBLE_USUAL;
+    scree_status status = scree_path_join(path, sizeof path, f->ensemble, SCREE_ENSEMBLE_FIGURES, error);
+    FILE *list = status ? NULL : fopen(path, "re");
+    if (list && !fgets(names, (int)sizeof names, list)) (void)snprintf(names, sizeof names, SCREE_ENSEMBLE_USUAL);
+    if (list) (void)fclose(list);
+    names[strcspn(names, "\n")] = 0;
+    char *rest = NULL;
+    for (char *name = strtok_r(names, ", ", &rest); name && !status; name = strtok_r(NULL, ", ", &rest))
+        status = put_figure(f, name, strcmp(name, SCREE_ENSEMBLE_USUAL) == 0, folder, link, page, error);
     return status;
 }
 
@@ -50,7 +71,7 @@ scree_status scree_ensemble_figures_write(const scree_findings *findings, const 
         const scree_finding *f = &findings->item[i];
         bool first = f->ensemble[0] && strcmp(f->name, name) == 0;
         for (size_t k = 0; k < i && first; k++) first = strcmp(findings->item[k].ensemble, f->ensemble) != 0;
-        if (first) status = put_figure(f, folder, link, page, error);
+        if (first) status = put_figures(f, folder, link, page, error);
     }
     return status;
 }

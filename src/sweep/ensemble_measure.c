@@ -3,6 +3,7 @@
 #include "sweep/results.h"
 
 #include "base/memory.h"
+#include "io/run_directory.h"
 
 #include <string.h>
 
@@ -31,6 +32,19 @@ static scree_status list_members(const scree_sweep_results *results, size_t poin
     return status;
 }
 
+/// Says beside the figures which of them a report shows.
+static scree_status name_figures(const char *folder, const char *names, scree_error *error)
+{
+    char path[PATH_MAX];
+    FILE *file;
+    if (!names || !names[0]) return SCREE_OK;
+    scree_status status = scree_path_join(path, sizeof path, folder, SCREE_ENSEMBLE_FIGURES, error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    (void)fprintf(file, "%s\n", names);
+    return scree_replace_finish(path, file, true, error);
+}
+
 static scree_status measure_point(const scree_sweep_results *results, size_t point, char **folder, scree_error *error)
 {
     const scree_sweep *sweep = results->sweep;
@@ -57,7 +71,10 @@ static scree_status measure_point(const scree_sweep_results *results, size_t poi
             scree_sweep_tell(results->options, 1, "ensemble of '%s': %s", sweep->point[point], problem.message);
         else if (status)
             *error = problem;
-        if (status == SCREE_ERROR_INPUT) status = SCREE_OK;
+        if (status == SCREE_ERROR_INPUT)
+            status = SCREE_OK;
+        else if (!status)
+            status = name_figures(output, sweep->config.ensemble.figures, error);
     }
     for (size_t k = 0; k < count; k++) scree_release(&folder[k]);
     return status;

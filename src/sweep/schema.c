@@ -94,9 +94,15 @@ static const scree_key ensemble_keys[] = {
     OPTION(at, .meaning = "Snapshot, or mean over those of a stage."),
     OPTION(from, .meaning = "Snapshot that displacements and strains begin at."),
     OPTION(fit, .meaning = "Theories of piles that are fitted to the mean stresses."),
+    OPTION(sizes, .meaning = "Grains of elements about one place: how many make an average."),
     OPTION(axis, .meaning = "Axis of the pile: mass, apex, or a place."),
     KEY(ensemble, points, SCREE_KEY_INTEGER, .standard = "0", FROM("0"), TO("10001"),
         .meaning = "Places along a cut; 0: as many as `scree measure` takes."),
+    KEY(ensemble, two_slopes, SCREE_KEY_FLAG, .standard = "no",
+        .meaning = "Fits take piles with a slope of their own on each side."),
+    KEY(ensemble, mirror, SCREE_KEY_FLAG, .standard = "no",
+        .meaning = "Cuts of each member are means of it and its mirror image."),
+    OPTION(figures, .meaning = "Names of the figures that a report shows, such as rose; else the pressure by height."),
 };
 static const scree_section ensemble_table[] = {TABLE(
     "ensemble", "Averages over all members of a point, as `scree measure` makes them of several runs.", ensemble_keys)};

@@ -52,8 +52,10 @@ typedef struct scree_sweep_bisect {
 /// Averages over the members of a point, as `scree measure` makes them of several runs (ensemble.h). Texts are its
 /// options; "": as there without the option.
 typedef struct scree_sweep_ensemble {
-    char *fields, *cuts, *element, *grid, *kernel, *at, *from, *axis, *fit;
+    char *fields, *cuts, *element, *grid, *kernel, *at, *from, *axis, *fit, *sizes;
     int64_t points; ///< 0: as there
+    bool mirror, two_slopes;
+    char *figures; ///< names of those that a report shows, with commas
 } scree_sweep_ensemble;
 
 typedef struct scree_sweep_config {

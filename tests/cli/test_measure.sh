@@ -44,6 +44,21 @@ awk -v low="$("$scree" get both dip_low)" -v dip="$("$scree" get both dip)" -v h
     'BEGIN { exit !(low <= dip && dip <= high && p >= 0.25 && p <= 1) }' || complain "interval or p of the dip"
 same "$("$scree" get one dip_low)" nan "one pile has no interval"
 
+# Elements of growing size, their figures, and the scatter of several runs; a part of the grains in an element; threads.
+expect 0 'rve_fabric_grains' "$scree" measure pile1 pile2 pile1 --sizes 2,4,8,300 --from "#15" --element "10 %" --mirror -o sizes
+for file in sizes.csv scatter.csv sizes-stress.png sizes-strain.png sizes-fabric.png sizes-scatter.png; do
+    checks=$((checks + 1))
+    [ -s "sizes/$file" ] || complain "there is no sizes/$file"
+done
+same "$(tail -1 sizes/sizes.csv | cut -d, -f1,7)" "300,nan" "a size that does not fit"
+same "$("$scree" get sizes element_grains)" 6 "a tenth of the grains"
+expect 0 'rve_fabric_grains' "$scree" measure pile1 pile2 pile1 --sizes 2,4,8,300 --from "#15" --element "10 %" --mirror --threads 3 --no-figures -o threads
+for file in cuts.csv sizes.csv scatter.csv values.csv; do expect 0 '' cmp sizes/$file threads/$file; done
+checks=$((checks + 1))
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "place [1]") p = k; if ($k == "stress_yy [Pa]") s = k; if ($k == "stress_xy [Pa]") t = k } next }
+    { yy[NR] = $s; xy[NR] = $t; n = NR } END { for (k = 2; k <= 42; k++) if (yy[k] != yy[44 - k] || xy[k] != -xy[44 - k]) exit 1 }' sizes/cuts.csv ||
+    complain "cuts of a run and its mirror image are not symmetric"
+
 # Strains between two snapshots of a relaxing pile; a mean over snapshots.
 expect 0 'grains' "$scree" measure pile1 --from "#15" --no-figures -o moved
 head -1 moved/cuts.csv | grep -q 'cambou_xx.*liao_xy.*bagi_yy' || complain "no strains in moved/cuts.csv"
@@ -59,9 +74,20 @@ expect 2 '--axis: ' "$scree" measure pile1 --axis nowhere
 expect 2 '--points: .*odd' "$scree" measure pile1 --points 40
 expect 2 '--at: .*no snapshot of .nostage.*end.*pour' "$scree" measure pile1 --at nostage
 expect 2 '--from: ' "$scree" measure pile1 --at mean:2 --from start
-expect 2 'no grain to average over' "$scree" measure pile1 --at start
+expect 2 '--at: there is no grain to average over.*another snapshot' "$scree" measure pile1 --at start
 expect 2 'no grain is in both' "$scree" measure pile1 --from start
 expect 4 'cannot open|no such' "$scree" measure nothing
+expect 2 "--sizes: '20,10' says no sizes.*that grow" "$scree" measure pile1 --sizes 20,10
+expect 2 "--element: '150 %' is no part.*10 %" "$scree" measure pile1 --element "150 %"
+expect 2 "only the wedges have two slopes" "$scree" measure pile1 pile2 pile1 --fit osl --two-slopes --no-figures -o none
+expect 0 'warning: pile1: not at rest: .* of the mean contact force' "$scree" measure pile1 --at "#8" --no-figures -o moving
+"$scree" get moving warnings | grep -q 'not at rest, unbalanced ratio' || complain "a run that is not at rest is not said to be"
+# A gas has no contacts.
+expect 0 '' "$scree" run rotating-drum --quick --set particles.count=40 --set stages.settle.duration="1 ms" --set stages.turn.duration="1 ms" \
+    --set output.paraview=no --set output.figures=no --threads 1 --quiet -o gas
+expect 2 '--at: there are no contacts.*another snapshot' "$scree" measure gas --at start
+# One run has no interval, and says so.
+expect 0 'one run has no interval and no p: give the folders of several piles' "$scree" measure pile1 --no-figures -o few
 [ -e nothing ] && complain "a folder was made of a run that is not there"
 # A sweep that asks for averages over its members makes the same, and its report takes and shows them.
 cat >averaged.yaml <<'END'

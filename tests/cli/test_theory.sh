@@ -56,10 +56,10 @@ expect 2 'file' "$scree" theory lattice -o file
 # --- refused, with what would be right
 expect 2 'kind: .*accepted: hexagonal' "$scree" theory lattice --kind hexagnal
 expect 2 'kind: .*simple_cubic' "$scree" theory lattice --kind tetrahedral
-expect 2 'stiffness_ratio: .*0 or more' "$scree" theory lattice --kt -0.1
-expect 2 'poisson_ratio: .*below 0.5' "$scree" theory lattice --poisson-ratio 0.5
+expect 2 '--kt: .*0 or more' "$scree" theory lattice --kt -0.1
+expect 2 '--poisson-ratio: .*below 0.5' "$scree" theory lattice --poisson-ratio 0.5
 expect 2 'radius: .*above 0' "$scree" theory lattice --radius 0
-expect 2 'young_modulus: .*above 0' "$scree" theory lattice --young-modulus -1
+expect 2 '--young-modulus: .*above 0' "$scree" theory lattice --young-modulus -1
 expect 2 '--kn: .*no number' "$scree" theory lattice --kn stiff
 expect 2 '--plane: .*strain, stress' "$scree" theory lattice --plane both
 expect 2 '--kindd: .*--kind' "$scree" theory lattice --kindd row
@@ -124,27 +124,27 @@ expect 0 '^half_space_peak +1273' "$scree" theory flamant --force 300 --depth 0.
 # --- refused
 expect 2 '--phi: .*angle of repose' "$scree" theory ife
 expect 2 '--phi: .*left,right' "$scree" theory wedge --phi 28,
-expect 2 'slope: .*below 90' "$scree" theory bcc --phi 90
-expect 2 'slope: .*below 90' "$scree" theory wedge --phi 28,-3
-expect 2 'slope: .*smaller angle' "$scree" theory ife --phi 88
-expect 2 'slope: .*symmetric' "$scree" theory osl --phi 28,21 --eta 0.7
-expect 2 'height: .*above 0' "$scree" theory fpa --phi 28 --height 0
-expect 2 'eta: .*real characteristics.*larger eta' "$scree" theory osl --phi 28 --eta -0.5 --mu 0.2
-expect 2 'eta: .*same side' "$scree" theory osl --phi 28 --eta -0.1 --mu -1
-expect 2 'eta: .*flatter than the slope' "$scree" theory osl --phi 28 --eta 1.2 --mu 3
-expect 2 'ratio: .*K above 0' "$scree" theory osl --phi 28 --ratio -1 --tau 80
-expect 2 'ratio: .*tau' "$scree" theory osl --phi 28 --ratio 1.3
-expect 2 'eta: .*which relation' "$scree" theory osl --phi 28
-expect 2 'eta: .*one of these pairs' "$scree" theory osl --phi 28 --eta 0.7 --tau 80
-expect 2 'friction: .*larger slope' "$scree" theory wedge --phi 28 --friction 20
-expect 2 'core: .*no pile' "$scree" theory wedge --phi 28 --core 80
-expect 2 'core: .*below 90' "$scree" theory wedge --phi 28 --core 0
-expect 2 'axis: .*below 90' "$scree" theory wedge --phi 28 --axis 90
+expect 2 '--phi: .*below 90' "$scree" theory bcc --phi 90
+expect 2 '--phi: .*below 90' "$scree" theory wedge --phi 28,-3
+expect 2 '--phi: .*smaller angle' "$scree" theory ife --phi 88
+expect 2 '--phi: .*symmetric' "$scree" theory osl --phi 28,21 --eta 0.7
+expect 2 '--height: .*above 0' "$scree" theory fpa --phi 28 --height 0
+expect 2 '--eta: .*real characteristics.*larger eta' "$scree" theory osl --phi 28 --eta -0.5 --mu 0.2
+expect 2 '--eta: .*same side' "$scree" theory osl --phi 28 --eta -0.1 --mu -1
+expect 2 '--eta: .*flatter than the slope' "$scree" theory osl --phi 28 --eta 1.2 --mu 3
+expect 2 '--ratio: .*K above 0' "$scree" theory osl --phi 28 --ratio -1 --tau 80
+expect 2 '--ratio: .*tau' "$scree" theory osl --phi 28 --ratio 1.3
+expect 2 '--eta: .*which relation' "$scree" theory osl --phi 28
+expect 2 '--eta: .*one of these pairs' "$scree" theory osl --phi 28 --eta 0.7 --tau 80
+expect 2 '--friction: .*larger slope' "$scree" theory wedge --phi 28 --friction 20
+expect 2 '--core: .*no pile' "$scree" theory wedge --phi 28 --core 80
+expect 2 '--core: .*below 90' "$scree" theory wedge --phi 28 --core 0
+expect 2 '--axis: .*below 90' "$scree" theory wedge --phi 28 --axis 90
 expect 2 '--axis: .*no number' "$scree" theory wedge --phi 28 --axis up
-expect 2 'poisson_ratio: .*at most 0.5' "$scree" theory layer --nu 0.6
-expect 2 'base: .*accepted: bonded' "$scree" theory layer --base bondd
-expect 2 'thickness: .*above 0' "$scree" theory layer --thickness -1
-expect 2 'force: .*above 0' "$scree" theory flamant --force 0
+expect 2 '--nu: .*at most 0.5' "$scree" theory layer --nu 0.6
+expect 2 '--base: .*accepted: bonded' "$scree" theory layer --base bondd
+expect 2 '--thickness: .*above 0' "$scree" theory layer --thickness -1
+expect 2 '--force: .*above 0' "$scree" theory flamant --force 0
 expect 2 '--eta: ' "$scree" theory bcc --phi 28 --eta 1
 
 finish 'closed forms'

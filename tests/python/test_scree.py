@@ -294,7 +294,8 @@ class Folders(unittest.TestCase):
             np.testing.assert_array_equal(simulation.positions(), self.run_.snapshot()["position"])
 
     def test_measure(self):
-        measured = scree.measure.runs(self.run_, fields="stress", cuts="1", output=SCRATCH / "measured")
+        measured = scree.measure.runs(self.run_, fields="stress", cuts="1", sizes="5,10", mirror=True, output=SCRATCH / "measured")
+        self.assertEqual(list(measured["sizes"]["size"]), [5, 10])
         self.assertTrue(measured.lines)
         self.assertIn("cuts", measured.tables())
         self.assertGreater(len(measured["cuts"]), 3)

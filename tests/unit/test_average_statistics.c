@@ -183,6 +183,31 @@ static void pick(void *user, const char *name, const char *unit, double value)
     if (strcmp(name, "mobilised_friction") == 0) ((double *)user)[1] = value;
     if (strcmp(name, "force_mean") == 0) ((double *)user)[2] = value;
     if (strcmp(name, "bottom_force_mean") == 0) ((double *)user)[3] = value;
+    if (strcmp(name, "bottom_share_to_half") == 0) ((double *)user)[4] = value;
+    if (strcmp(name, "bottom_share_to_one") == 0) ((double *)user)[5] = value;
+    if (strcmp(name, "force_strong_share") == 0) ((double *)user)[6] = value;
+}
+
+/// Grains side by side on a floor, with forces of 1, 3, 3, 3, 4, 6, 6, 38: mean 8, so n is 1/8, 3/8 (3), 1/2, 3/4 (2)
+/// and 19/4.
+static void test_shares(void **state)
+{
+    (void)state;
+    const double force[8] = {1, 3, 3, 3, 4, 6, 6, 38};
+    double of[7] = {0};
+    scree_average_sample s = average_begin(2);
+    scree_error error;
+    for (uint32_t k = 0; k < 8; k++) {
+        (void)average_add(&s, 2.0 * k, 1, 0, 1);
+        average_stand(&s, k, (double[3]){2.0 * k, 0, 0}, (double[3]){0, force[k], 0});
+    }
+    average_finish(&s);
+    check(scree_average_forces_tell(&s, pick, of, &error), &error);
+    near(of[3], 8, 1e-14);
+    near(of[4], 4 / 8.0, 1e-15);
+    near(of[5], 3 / 8.0, 1e-15);
+    near(of[6], 1 / 8.0, 1e-15);
+    scree_average_sample_destroy(&s);
 }
 
 /// A lattice: all forces known, densities integrate to one, contacts in four directions.
@@ -192,7 +217,7 @@ static void test_lattice_forces(void **state)
     const double fx = 3, fy = 5;
     scree_average_sample s = average_lattice(8, 0.5, fx, fy);
     scree_error error;
-    double of[4] = {0}, sum[2] = {0}, contacts = 0;
+    double of[7] = {0}, sum[2] = {0}, contacts = 0;
     for (size_t c = 0; c < s.contacts; c++) s.contact[c].sliding = c % 2 == 0;
     for (size_t c = 0; c < s.contacts; c++) s.contact[c].tangential_force = 0.25 * s.contact[c].normal_force;
     average_finish(&s);
@@ -280,7 +305,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_dip_exact),      cmocka_unit_test(test_dip_there), cmocka_unit_test(test_dip_absent),
         cmocka_unit_test(test_means),          cmocka_unit_test(test_coverage),  cmocka_unit_test(test_decay),
-        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_chains),
+        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_shares),    cmocka_unit_test(test_chains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
 /// Strains of elements between two instants: affine motions of any size, rotations, turning grains, known faults.
 #include "average_fixture.h"
 
+#include "average/kernel_strain.h"
 #include "average/strain.h"
+#include "base/matrix.h"
 
 #define TURN 0.3
 
@@ -123,6 +125,84 @@ static void test_turning(void **state)
     scree_average_sample_destroy(&s);
 }
 
+/// A grid of shaken discs in a skewed cell, which is strained and moved, all put back into the cell; contacts go across
+/// its faces.
+static scree_average_sample moved_cell(const double gradient[9])
+{
+    enum { N = 9 };
+    scree_average_sample s = average_begin(2), before;
+    scree_error error;
+    double inverse[9], fraction[3], way[3];
+    s.directions = 3;
+    memcpy(s.lattice, (double[9]){N, 2, 0, 0, N, 0, 0, 0, 1}, sizeof s.lattice);
+    for (size_t k = 0; k < N * N; k++)
+        (void)average_add(&s, (double)(k % N) + 0.3 * average_random(k) + 2.0 / N * (double)(k / N),
+                          (double)(k / N) + 0.3 * average_random(k + 500), 0, 0.5);
+    before = s;
+    assert_int_equal(scree_allocate(&before.grain, s.bodies, sizeof *before.grain, NULL), SCREE_OK);
+    memcpy(before.grain, s.grain, s.bodies * sizeof *s.grain);
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            for (int l = 0; l < 2; l++) s.lattice[3 * i + j] += gradient[3 * i + l] * before.lattice[3 * l + j];
+    scree_matrix_invert(s.lattice, inverse);
+    for (size_t p = 0; p < s.bodies; p++) {
+        double *x = s.grain[p].position;
+        scree_matrix_apply(gradient, before.grain[p].position, way);
+        for (int i = 0; i < 2; i++) x[i] += way[i] + 2.5;
+        scree_matrix_apply(inverse, x, fraction);
+        for (int i = 0; i < 2; i++) fraction[i] -= floor(fraction[i]);
+        scree_matrix_apply(s.lattice, fraction, x);
+    }
+    for (uint32_t k = 0; k < N * N; k++)
+        for (int axis = 0; axis < 2; axis++) {
+            const uint32_t next = axis == 0 ? (k % N == N - 1 ? k - (N - 1) : k + 1) : (k + N) % (N * N);
+            average_touch(&s, k, next, (double[3]){1, 0, 0});
+            double *branch = s.contact[s.contacts - 1].branch;
+            scree_matrix_apply(inverse, branch, fraction);
+            for (int i = 0; i < 2; i++) fraction[i] -= round(fraction[i]);
+            scree_matrix_apply(s.lattice, fraction, branch);
+            scree_along(s.grain[k].position, -0.5, branch, s.contact[s.contacts - 1].point);
+        }
+    check(scree_average_move(&s, &before, &error), &error);
+    scree_release(&before.grain);
+    average_finish(&s);
+    check(scree_average_sample_repeat(&s, 5, &error), &error);
+    return s;
+}
+
+/// A cell that is strained and whose bodies go round: the strain, also in an element across a corner of the cell.
+static void test_cell(void **state)
+{
+    (void)state;
+    const double gradient[9] = {0.02, 0.1, 0, -0.01, -0.03, 0, 0, 0, 0};
+    enum { CORNER, MIDDLE };
+    scree_average_sample s = moved_cell(gradient);
+    scree_error error;
+    scree_average_bins bins;
+    scree_average_strain strain;
+    check(scree_average_bins_make(&s, 1, &bins, &error), &error);
+    check(scree_average_strain_open(&s, &bins, &strain, &error), &error);
+    for (int where = CORNER; where <= MIDDLE; where++) {
+        double found[SCREE_AVERAGE_STRAINS][9];
+        scree_vector displacement, middle = {where * 5.0, where * 4.5, 0};
+        const scree_average_element element = scree_average_element_at(middle, (double[3]){4.5, 4.5, 0});
+        scree_average_strain_find(&strain, &element, displacement, found);
+        for (int d = 0; d < SCREE_AVERAGE_STRAINS; d++)
+            for (int i = 0; i < 2 && d != SCREE_AVERAGE_LIAO; i++)
+                for (int j = 0; j < 2; j++) near(found[d][3 * i + j], gradient[3 * i + j], 1e-12);
+    }
+    // Smooth strains at a corner of the cell and in it.
+    const scree_average_points points = {.number = {2, 2, 1}, .first = {0, 0, 0}, .gap = {5, 4, 1}};
+    double smooth[4][9], displacement[4][2];
+    check(scree_average_kernel_strain_find(&s, 2.5, &points, displacement[0], smooth, &error), &error);
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) near(smooth[k][3 * i + j], gradient[3 * i + j], 1e-11);
+    scree_average_strain_close(&strain);
+    scree_average_bins_destroy(&bins);
+    scree_average_sample_destroy(&s);
+}
+
 /// What cannot be found is NAN and not zero; what cannot be compared is refused.
 static void test_refused(void **state)
 {
@@ -131,9 +211,8 @@ static void test_refused(void **state)
     scree_error error;
     scree_average_sample s = moved(2, none, 0), other = average_begin(2);
     assert_int_equal(scree_average_move(&s, &other, &error), SCREE_ERROR_INPUT);
-    s.directions = 1;
-    assert_int_equal(scree_average_move(&s, &s, &error), SCREE_ERROR_INPUT);
-    s.directions = 0;
+    other.directions = 1;
+    assert_int_equal(scree_average_move(&s, &other, &error), SCREE_ERROR_INPUT);
     scree_average_bins bins;
     scree_average_strain strain;
     scree_vector displacement;
@@ -153,10 +232,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_affine),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_turning),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_affine), cmocka_unit_test(test_rotation), cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_cell),   cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,8 +143,74 @@ static void test_noise(void **state)
     assert_true(honest >= 18);
 }
 
+/// Piles with two slopes, 28 degrees left and 21 right, and the stress of the wedge with a dip about an apex that is
+/// not the axis of the cuts: the wedge with the dip is found to have it, that with the peak is not; theories with one
+/// slope are refused.
+static void test_two_slopes(void **state)
+{
+    (void)state;
+    const double left = 28 * M_PI / 180, right = 21 * M_PI / 180, apex = 0.01;
+    measure_tables each[PILES];
+    measure_found found = {.runs = PILES};
+    measure_plan plan = {
+        .average = {.cuts = CUTS, .points = POINTS}, .fit = {"wedge_dip", "wedge_peak"}, .fits = 2, .two_slopes = true};
+    scree_error error;
+    scree_fit truth;
+    check(scree_fit_begin("wedge_dip", &truth, &error), &error);
+    check(scree_fit_set(&truth, "weight", WEIGHT, true, &error), &error);
+    check(scree_fit_set(&truth, "slope_left", left, false, &error), &error);
+    check(scree_fit_set(&truth, "slope_right", right, false, &error), &error);
+    for (uint64_t i = 0; i < PILES; i++) {
+        each[i] = (measure_tables){0};
+        scree_average_table *values = &each[i].of[MEASURE_VALUES], *cuts = &each[i].of[MEASURE_CUTS];
+        check(scree_average_table_begin_row(values, &error), &error);
+        scree_average_table_take(values, "element_side", "m", SIDE);
+        scree_average_table_take(values, "triangle_height", "m", HEIGHT);
+        scree_average_table_take(values, "triangle_slope", "degree", 24);
+        scree_average_table_take(values, "triangle_slope_left", "degree", 28);
+        scree_average_table_take(values, "triangle_slope_right", "degree", 21);
+        scree_average_table_take(values, "triangle_apex", "m", apex);
+        scree_average_table_take(values, "weight_density", "N/m3", WEIGHT);
+        check(scree_average_table_end_row(values, &error), &error);
+        for (uint64_t k = 0; k < CUTS * POINTS; k++) {
+            const double x = ((double)(k % POINTS) / (POINTS / 2) - 1) * 0.25;
+            const double y = 0.5 * SIDE + 0.2 * HEIGHT * (double)(k / POINTS);
+            const double room = (HEIGHT - y - 0.5 * SIDE) / tan(x < apex ? left : right);
+            const scree_fit_point point = {.x = x - apex, .y = HEIGHT - y};
+            scree_stress_2d s;
+            check(scree_fit_stress(&truth, 1, &point, &s, &error), &error);
+            check(scree_average_table_begin_row(cuts, &error), &error);
+            scree_average_table_take(cuts, "x", "m", x);
+            scree_average_table_take(cuts, "y", "m", y);
+            scree_average_table_take(cuts, "inside", "1", fabs(x - apex) + 0.5 * SIDE < room);
+            const double noise = 1e-6 * WEIGHT * HEIGHT;
+            const uint64_t number = 3 * (i * CUTS * POINTS + k);
+            scree_average_table_take(cuts, "stress_xx", "Pa", -s.xx + noise * noise_of(number));
+            scree_average_table_take(cuts, "stress_yy", "Pa", -s.yy + noise * noise_of(number + 1));
+            scree_average_table_take(cuts, "stress_xy", "Pa", s.xy + noise * noise_of(number + 2));
+            check(scree_average_table_end_row(cuts, &error), &error);
+        }
+    }
+    for (int product = MEASURE_VALUES; product <= MEASURE_CUTS; product++) {
+        scree_average_table same[PILES];
+        for (int i = 0; i < PILES; i++) same[i] = each[i].of[product];
+        check(scree_average_table_mean(same, PILES, &found.mean.of[product], NULL, NULL, &error), &error);
+    }
+    check(measure_fit(each, PILES, &plan, &found, &error), &error);
+    assert_near(number_of(&found, "fit_wedge_dip_weight_ratio").value, 1, 1e-5);
+    assert_true(number_of(&found, "fit_wedge_dip_misfit").value < 1e-5);
+    assert_true(number_of(&found, "fit_wedge_peak_misfit").value > 0.1);
+    scree_release(&found.fits->row);
+    scree_release(&found.fits);
+    plan.fit[1] = "osl";
+    assert_int_equal(measure_fit(each, PILES, &plan, &found, &error), SCREE_ERROR_INPUT);
+    for (int i = 0; i < PILES; i++) measure_tables_destroy(&each[i]);
+    measure_tables_destroy(&found.mean);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact), cmocka_unit_test(test_noise)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact), cmocka_unit_test(test_noise),
+                                       cmocka_unit_test(test_two_slopes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
