@@ -5,14 +5,16 @@
 /// its sign every step with about that size, which is of the order of v_R at P's large step of 1e-5 s (P figure 2.4,
 /// scheme I).
 ///
-/// Bounds, for an overlap d and a relative velocity u: f_n <= k_n d + T k_n u with k_n = A sqrt(R d), f <= f_n (1 + mu
-/// max(1, (u / v_R)^(1/c))); energies of one contact and step: damping 2 (T k_n u) (u dt), friction f (u dt).
+/// Bounds, for an overlap d and a relative velocity u: |f_n| <= k_n d + T k_n u with k_n = A sqrt(R d), f <= f_n (1 +
+/// mu max(1, (u / v_R)^(1/c))); energies of one contact and step: damping 2 (T k_n u) (u dt), friction f (u dt).
 #include "contact/hertz_brilliantov.h"
 
 #include "case/check.h"
 #include "module/integrator.h"
 #include "module/key_rows.h"
 #include "state/memory_fields.h"
+
+#include <float.h>
 
 /// The slip that an implicit friction sees holds what one step may change: so many times the largest now.
 static const double FORESEEN = 64;
@@ -32,6 +34,10 @@ static const scree_key keys[] = {
            .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
     CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
            .meaning = "How the stiff friction law is integrated."),
+    FLAG(contact, attraction, .standard = "no", .when = "law=hertz_brilliantov",
+         .meaning =
+             "Whether two bodies that part pull at each other until their overlap is gone (as the law is printed), "
+             "or the force ends at zero."),
 };
 
 static bool is_implicit(const contact *c)
@@ -76,6 +82,7 @@ static void resolve(const void *own, double reference_velocity, scree_law_use *u
 {
     const contact *c = own;
     brilliantov_numbers(c->damping_time, c->friction_exponent, reference_velocity, use->number);
+    if (c->attraction) use->number[BRILLIANTOV_LEAST] = -DBL_MAX;
 }
 
 static scree_pair_constants constants(const scree_contact_space *space, const scree_config_material *a,
@@ -110,8 +117,9 @@ static scree_contact_tangent tangent(const scree_law_use *use, const scree_pair_
 static scree_status impact(const scree_law_use *use, const scree_pair_constants *pair, double effective_radius,
                            double effective_mass, double speed, scree_impact *impact_, scree_error *error)
 {
+    bool attraction = use->number[BRILLIANTOV_LEAST] < 0;
     return scree_impact_viscoelastic(speed, pair->value[HERTZ_NORMAL] * sqrt(effective_radius), effective_mass,
-                                     use->number[BRILLIANTOV_TIME], impact_, error);
+                                     use->number[BRILLIANTOV_TIME], attraction, impact_, error);
 }
 
 #define FORCE "tangential_force", "N", "tangential force of the last step on the first body; along t in 2D"

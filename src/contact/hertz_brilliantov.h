@@ -1,7 +1,7 @@
 /// Law hertz_brilliantov: Hertz's normal force with the damping of Brilliantov et al. 1996, and friction regularised by
 /// the slip speed (P 2.A1-2.A7, 3.A1-3.A3, corrected as in docs/theory.md).
-///   f_n = max(K d^1.5 + T K d^0.5 d', 0), K = normal_stiffness sqrt(R_eff)
-///   f_t = -mu f_n (|s| / v_R)^(1/c) s / |s|, zero at s = 0
+///   f_n = max(K d^1.5 + T K d^0.5 d', 0), K = normal_stiffness sqrt(R_eff); with attraction f_n without max
+///   f_t = -mu |f_n| (|s| / v_R)^(1/c) s / |s|, zero at s = 0
 /// The power is 2^(log(|s| / v_R) / (c log 2)) with SLEEF's functions: the error of the logarithm is divided by c. In
 /// two dimensions the slip is a signed number, so no root is needed.
 ///
@@ -40,6 +40,7 @@ enum {
     BRILLIANTOV_BINARY_EXPONENT,  ///< 1 / (c log 2)
     BRILLIANTOV_VELOCITY,         ///< m/s, v_R
     BRILLIANTOV_INVERSE_VELOCITY, ///< s/m
+    BRILLIANTOV_LEAST,            ///< N, least normal force: 0, or with attraction that of all numbers
 };
 
 typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
@@ -49,6 +50,7 @@ typedef struct scree_brilliantov_config {
     double damping_time;      ///< s, T
     double friction_exponent; ///< 1, c
     int friction_update;      ///< scree_friction_update
+    bool attraction;          ///< contacts that part may pull
 } scree_brilliantov_config;
 
 /// Numbers of the run from T [s], c and v_R [m/s].
@@ -129,8 +131,8 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
     lanes d = lanes_keep(touching, m->overlap);
     lanes stiffness = constants->value[HERTZ_NORMAL] * lanes_root(m->reduced_radius * d);
     lanes elastic = stiffness * d;
-    lanes normal =
-        lanes_at_least(elastic + stiffness * (settings->number[BRILLIANTOV_TIME] * m->dashpot_approach), lanes_all(0));
+    lanes normal = lanes_at_least(elastic + stiffness * (settings->number[BRILLIANTOV_TIME] * m->dashpot_approach),
+                                  lanes_all(settings->number[BRILLIANTOV_LEAST]));
 
     lanes damping = normal - elastic, none = lanes_all(0), damping_before = before->value[1];
     vector tangential_before = {.x = before->value[0]};
@@ -140,7 +142,7 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
         damping_before = before->value[3];
     }
     vector tangential =
-        regularised_friction(v, constants->value[SCREE_FRICTION] * normal, settings, m, tangential_before);
+        regularised_friction(v, constants->value[SCREE_FRICTION] * lanes_abs(normal), settings, m, tangential_before);
     *after = (law_memory){.value = {tangential.x, damping, none, none}};
     if (dimension == 3) *after = (law_memory){.value = {tangential.x, tangential.y, tangential.z, damping}};
     vector both = vector_plus(count, tangential, tangential_before);

@@ -131,7 +131,7 @@ static scree_status impact(const scree_law_use *use, const scree_pair_constants 
 {
     (void)use;
     scree_status status = scree_impact_viscoelastic(speed, pair->value[HERTZ_NORMAL] * sqrt(effective_radius),
-                                                    effective_mass, 0, impact_, error);
+                                                    effective_mass, 0, false, impact_, error);
     impact_->restitution = scree_restitution_from_damping(pair->value[HERTZ_DAMPING]);
     return status;
 }

@@ -34,6 +34,54 @@ scree_peak scree_peak_find(const double *ratio, const double *strain, scree_load
     return peak;
 }
 
+scree_first_peak scree_first_peak_find(const double *value, const double *strain, scree_loading_rows rows, double fall)
+{
+    scree_first_peak peak = {NAN, NAN, NAN};
+    double lowest = 0, highest = 0;
+    bool followed = false;
+    for (size_t k = rows.first; k < rows.last; k++) highest = fmax(highest, value[k]);
+    for (size_t k = rows.first; k < rows.last; k++) {
+        if (!followed && value[k] > 0 && value[k] >= SCREE_PEAK_SHARE * highest && !(value[k] <= peak.value)) {
+            peak = (scree_first_peak){value[k], strain[k], NAN};
+            lowest = value[k];
+        }
+        if (isnan(peak.value) || !(value[k] < lowest)) continue;
+        lowest = value[k];
+        followed = followed || lowest <= (1 - fall) * peak.value;
+    }
+    if (!followed) return (scree_first_peak){NAN, NAN, NAN};
+    peak.dip = 1 - lowest / peak.value;
+    return peak;
+}
+
+size_t scree_maxima_count(const double *value, scree_loading_rows rows, double share)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = rows.first; k < rows.last; k++) {
+        least = fmin(least, value[k]);
+        most = fmax(most, value[k]);
+    }
+    double apart = share * (most - least);
+    if (!(apart > 0)) return 0;
+    // The extreme since the last turn; a turn counts when the curve has come back from it by `apart`.
+    size_t count = 0;
+    double high = value[rows.first], low = high;
+    bool rose = false;
+    for (size_t k = rows.first; k < rows.last; k++) {
+        high = fmax(high, value[k]);
+        low = fmin(low, value[k]);
+        if (!rose && value[k] >= low + apart) {
+            rose = true;
+            high = value[k];
+        } else if (rose && value[k] <= high - apart) {
+            rose = false;
+            low = value[k];
+            count++;
+        }
+    }
+    return count;
+}
+
 bool scree_snapshot_begins_stage(const char *before, const char *now, double strain)
 {
     return strcmp(before, now) != 0 || strain == 0;

@@ -27,6 +27,22 @@ typedef struct scree_peak {
 /// rows in the window.
 scree_peak scree_peak_find(const double *ratio, const double *strain, scree_loading_rows rows);
 
+/// The first peak of a curve.
+typedef struct scree_first_peak {
+    double value, strain; ///< NAN: there is none
+    double dip;           ///< largest fall after it, over it; NAN: there is none
+} scree_first_peak;
+
+/// A first peak has at least this share of the largest value: around zero every curve has small ones.
+#define SCREE_PEAK_SHARE 0.1
+
+/// The first maximum above zero that a fall of `fall` [1] of it follows before it is passed. value, strain: columns of
+/// series.csv.
+scree_first_peak scree_first_peak_find(const double *value, const double *strain, scree_loading_rows rows, double fall);
+
+/// Maxima between the ends of a curve that stand out on both sides by at least `share` [1] of its range.
+size_t scree_maxima_count(const double *value, scree_loading_rows rows, double share);
+
 /// Whether a snapshot of stage `now` at `strain` is the first of its stage, the one before it being of stage `before`:
 /// stages may have the same name, and every one that strains begins with a snapshot at zero.
 bool scree_snapshot_begins_stage(const char *before, const char *now, double strain);

@@ -3,9 +3,10 @@
 ///
 /// The displacements since the begin of loading are compared with the affine field that fits all grains best
 /// (fluctuations.c). A corner is the grains that were within REACH mean diameters of a corner of the box around all
-/// centres; its distortion is the length of the mean of their non-affine displacements. The largest of the four over
-/// the width of that box is given: samples of different sizes that deform alike have the same number, whatever their
-/// number of grains. Cost: O(grains).
+/// centres; its distortion is the length of the mean of their non-affine displacements. The largest of the four and
+/// their root mean square over the width of that box are given: samples of different sizes that deform alike have the
+/// same numbers, whatever their number of grains. The largest of four scatters more, and is larger, the more they
+/// scatter. Cost: O(grains).
 #include "measure/measure.h"
 
 #include <math.h>
@@ -55,13 +56,13 @@ static double corner_motion(const columns *c, double x, double y, double reach)
     return near > 0 ? hypot(sum_x, sum_y) / (double)near : 0;
 }
 
-scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
-                                     scree_error *error)
+scree_status scree_corner_distortion(const scree_model *model, const scree_state *state,
+                                     scree_corner_motion *distortion, scree_error *error)
 {
-    *distortion = NAN;
+    *distortion = (scree_corner_motion){NAN, NAN};
     if (state->dimension != 2) return SCREE_OK;
     size_t n = scree_grain_count(state);
-    double *room = NULL, gradient[4], x[2], y[2], largest = 0;
+    double *room = NULL, gradient[4], x[2], y[2], largest = 0, squares = 0;
     scree_status status = scree_allocate(&room, 6 * n, sizeof *room, error);
     if (status) return status;
     columns c = {room, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n, n};
@@ -71,9 +72,12 @@ scree_status scree_corner_distortion(const scree_model *model, const scree_state
     (void)scree_fluctuations(2, from, to, n, fluctuation, gradient);
     find_range(c.x0, n, x);
     find_range(c.y0, n, y);
-    for (int k = 0; k < 4; k++)
-        largest = fmax(largest, corner_motion(&c, x[k % 2], y[k / 2], REACH * 2 * model->mean_radius));
-    *distortion = largest / (x[1] - x[0]);
+    for (int k = 0; k < 4; k++) {
+        double motion = corner_motion(&c, x[k % 2], y[k / 2], REACH * 2 * model->mean_radius);
+        largest = fmax(largest, motion);
+        squares += motion * motion;
+    }
+    *distortion = (scree_corner_motion){largest / (x[1] - x[0]), sqrt(squares / 4) / (x[1] - x[0])};
     scree_release(&room);
     return SCREE_OK;
 }

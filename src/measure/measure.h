@@ -88,10 +88,15 @@ double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *
 scree_status scree_solid_fraction(const scree_state *state, double *fraction, scree_error *error) SCREE_MUST_USE;
 
 /// How far the corners of the sample leave the affine motion of all grains, since the begin of the loading stage
-/// (state->reference): 1, the largest over the corners, relative to the width of the sample at the begin
-/// (corner_distortion.c). NAN in 3D. Errors: memory.
-scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
-                                     scree_error *error) SCREE_MUST_USE;
+/// (state->reference): 1, relative to the width of the sample at the begin (corner_distortion.c). NAN in 3D.
+typedef struct scree_corner_motion {
+    double largest;          ///< over the four
+    double root_mean_square; ///< of the four
+} scree_corner_motion;
+
+/// Errors: memory.
+scree_status scree_corner_distortion(const scree_model *model, const scree_state *state,
+                                     scree_corner_motion *distortion, scree_error *error) SCREE_MUST_USE;
 
 /// How far the boundary of a round sample leaves the affine ghost of what it was at the begin of the loading stage
 /// (state->reference): root mean square in mean diameters (boundary_roughness.c). NAN in 3D. Errors: memory.

@@ -113,4 +113,23 @@ scree_status scree_rotation_alignment_measure(const scree_model *model, const sc
                                               const scree_rotation_decay *decay, scree_rotation_network *network,
                                               scree_rotation_alignment *alignment, scree_error *error) SCREE_MUST_USE;
 
+/// A geometric mean over contacts; NAN without any.
+typedef struct scree_rotation_handed {
+    double value;
+    size_t count;
+} scree_rotation_handed;
+
+/// Transmission per contact: amount of the body further from the forced one over that of the nearer one, over the
+/// contacts of bodies that count, whose nearer one lies within `cutoff` mean diameters and turns by at least `limit` of
+/// the forced one (what is felt: the decay's); contacts of the forced body, whose spin is prescribed, are left out.
+typedef struct scree_rotation_transmission {
+    scree_rotation_handed strong, weak; ///< contacts that lead outward within 45 degrees: above the mean force, others
+    scree_rotation_handed aside;        ///< the rest
+} scree_rotation_transmission;
+
+/// Errors: none.
+void scree_rotation_transmission_measure(const scree_model *model, const scree_state *state,
+                                         const scree_contact_table *table, size_t forced, double cutoff, double limit,
+                                         scree_rotation_transmission *out);
+
 #endif

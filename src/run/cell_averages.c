@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+/// P shades cells of more than so many mean pressures (fig. 3.11).
+#define STRONG 1.75
 /// A circle has the pressure of the sample when it differs from it by less.
 #define CONVERGED 0.1
 /// Instants in series.csv and run.h5 are the same bits but for the printed digits.
@@ -75,6 +77,9 @@ static void follow_circles(scree_cell_averages *averages, const double *ratio, s
     for (size_t size = count; size-- > 0;) {
         inside = departure(ratio, count, size, &square, &used) < CONVERGED && inside;
         if (inside) converged = size + 1;
+        if (size + 1 != SCREE_CIRCLE_WIDE || !(used > 0)) continue;
+        averages->wide += sqrt(square / used);
+        averages->wide_instants++;
     }
     averages->spread += sqrt(square / used);
     averages->diameter += (double)converged;
@@ -93,12 +98,26 @@ static void add_stress(scree_cell_averages *averages, const scree_cell_snapshot 
     for (int i = 0; i < 3; i++) averages->sample_stress[4 * i] -= normal[i];
 }
 
-void scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_snapshot *snapshot, const double *ratio,
-                             size_t count)
+/// Share of the volume of each region that has more than STRONG times the mean pressure.
+static scree_status add_strong(scree_cell_averages *averages, const scree_cells *cells, const double *position,
+                               scree_error *error)
+{
+    double *strong = NULL, share[SCREE_REGION_COUNT], mean = scree_cells_mean(cells, cells->pressure);
+    scree_status status = scree_allocate(&strong, cells->count, sizeof *strong, error);
+    if (status) return status;
+    for (size_t k = 0; k < cells->count; k++) strong[k] = cells->pressure[k] > STRONG * mean;
+    scree_cells_region_means(cells, position, strong, share);
+    for (int r = 0; r < SCREE_REGION_COUNT; r++) averages->strong[r] += share[r];
+    scree_release(&strong);
+    return SCREE_OK;
+}
+
+scree_status scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_snapshot *snapshot,
+                                     const double *ratio, size_t count, scree_error *error)
 {
     const scree_cells *cells = &snapshot->cells;
     add_stress(averages, snapshot);
-    if (!(snapshot->axial_strain >= averages->from && snapshot->axial_strain <= averages->to)) return;
+    if (!(snapshot->axial_strain >= averages->from && snapshot->axial_strain <= averages->to)) return SCREE_OK;
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT];
     scree_cells_region_means(cells, snapshot->assembly.position, cells->distortion, distortion);
     scree_cells_region_means(cells, snapshot->assembly.position, cells->pressure, pressure);
@@ -108,6 +127,7 @@ void scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_sna
     }
     follow_circles(averages, ratio, count);
     averages->instants++;
+    return add_strong(averages, cells, snapshot->assembly.position, error);
 }
 
 scree_status scree_cell_averages_strain(scree_cell_averages *averages, const scree_cell_snapshot *first,
@@ -181,4 +201,9 @@ void scree_cell_averages_summarise(const scree_cell_averages *averages, int dime
                              averages->distortion[SCREE_REGION_PLATES] / averages->distortion[SCREE_REGION_CORE]);
     scree_summary_set_number(summary, "plate_pressure_ratio", averages->pressure[SCREE_REGION_PLATES] / core);
     scree_summary_set_number(summary, "side_pressure_ratio", averages->pressure[SCREE_REGION_SIDES] / core);
+    scree_summary_set_number(summary, "plate_strong_share", averages->strong[SCREE_REGION_PLATES] / instants);
+    scree_summary_set_number(summary, "side_strong_share", averages->strong[SCREE_REGION_SIDES] / instants);
+    scree_summary_set_number(summary, "core_strong_share", averages->strong[SCREE_REGION_CORE] / instants);
+    if (averages->wide_instants > 0)
+        scree_summary_set_number(summary, "circle_pressure_spread_wide", averages->wide / averages->wide_instants);
 }

@@ -10,15 +10,20 @@
 
 enum { SCREE_CIRCLES = 3 };
 
+/// Circles from so many mean diameters on hold more than a chain or none.
+enum { SCREE_CIRCLE_WIDE = 4 };
+
 typedef struct scree_cell_averages {
     const scree_series *series; ///< NULL: nothing to compare with
     double from, to;            ///< axial strains between which instants count for circles and regions
     double instants;            ///< of them
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT]; ///< sums over them
-    double spread, diameter;                                             ///< sums over them
-    double cell_stress[9], sample_stress[9];                             ///< sums over all instants of the stage
-    double cell_strain[9];                                               ///< sum over its snapshots
-    double begin, end;                                                   ///< s, of the first and the last; NAN without
+    double strong[SCREE_REGION_COUNT]; ///< sums over them of shares of the volume above STRONG mean pressures
+    double spread, diameter, wide;     ///< sums over them; wide: spread of circles from WIDE diameters on
+    double wide_instants;              ///< of those that have such circles
+    double cell_stress[9], sample_stress[9]; ///< sums over all instants of the stage
+    double cell_strain[9];                   ///< sum over its snapshots
+    double begin, end;                       ///< s, of the first and the last; NAN without
 } scree_cell_averages;
 
 /// Forgets everything: a stage begins.
@@ -26,9 +31,9 @@ void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config
                                const scree_series *series);
 
 /// Adds a snapshot. ratio: pressure over that of all cells, `count` growing circles around each of SCREE_CIRCLES
-/// places.
-void scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_snapshot *snapshot, const double *ratio,
-                             size_t count);
+/// places. Errors: memory.
+scree_status scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_snapshot *snapshot,
+                                     const double *ratio, size_t count, scree_error *error) SCREE_MUST_USE;
 
 /// Adds the strain of the cells of `first` between two snapshots. Errors: memory.
 scree_status scree_cell_averages_strain(scree_cell_averages *averages, const scree_cell_snapshot *first,

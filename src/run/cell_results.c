@@ -127,7 +127,7 @@ static scree_status write_circles(walk *w, const scree_cell_snapshot *snapshot, 
             status = scree_series_append(&w->circles, row, error);
         }
     }
-    if (!status) scree_cell_averages_add(&w->averages, snapshot, ratio, count);
+    if (!status) status = scree_cell_averages_add(&w->averages, snapshot, ratio, count, error);
     scree_release(&pressure);
     return status;
 }
@@ -338,10 +338,14 @@ static const scree_result results[] = {
     {"cell_stress_disagreement", "1", "stress of the cells against that of the contacts"},
     {"cell_strain_disagreement", "1", "strain of the cells against that of the boundary"},
     {"circle_pressure_spread", "1", "spread of the pressure over circles"},
+    {"circle_pressure_spread_wide", "1", "the same over circles from 4 mean diameters on"},
     {"circle_pressure_diameter", "1", "diameter from which on circles have the mean pressure, in mean diameters"},
     {"plate_distortion_ratio", "1", "distortion rate near the plates over that of the core"},
     {"plate_pressure_ratio", "1", "pressure near the plates over that of the core"},
     {"side_pressure_ratio", "1", "pressure near the sides over that of the core"},
+    {"plate_strong_share", "1", "share of the volume near the plates above 1.75 times the mean pressure"},
+    {"side_strong_share", "1", "share of the volume near the sides above it"},
+    {"core_strong_share", "1", "share of the core above it"},
     {"bands", NULL, "kind of localisation"},
     {"band_persistence", "1", "persistence of the bands"},
     {"localisation_index_last", "1", "localisation index of the last window"},

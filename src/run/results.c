@@ -258,10 +258,13 @@ static void summarise_cost(const scree_simulation *s, scree_summary *summary)
 static scree_status summarise_shape(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
     double value;
+    scree_corner_motion corners;
     scree_status status = SCREE_OK;
     if (scree_config_prepared(s->model.stages)->outline == SCREE_SAMPLE_BOX) {
-        status = scree_corner_distortion(&s->model, &s->state, &value, error);
-        if (!status) scree_summary_set_number(summary, "corner_distortion", value);
+        status = scree_corner_distortion(&s->model, &s->state, &corners, error);
+        if (status) return status;
+        scree_summary_set_number(summary, "corner_distortion", corners.largest);
+        scree_summary_set_number(summary, "corner_distortion_rms", corners.root_mean_square);
     } else if (s->state.dimension == 2) {
         status = scree_boundary_roughness(&s->model, &s->state, &value, error);
         if (!status) scree_summary_set_number(summary, "boundary_roughness", value);

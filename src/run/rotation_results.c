@@ -18,6 +18,7 @@ typedef struct findings {
     scree_rotation_decay decay;
     scree_rotation_network network;
     scree_rotation_alignment alignment;
+    scree_rotation_transmission transmission;
 } findings;
 
 static double fitted(const scree_rotation_decay *decay, double distance)
@@ -139,6 +140,10 @@ static void summarise(const scree_simulation *s, const findings *f, scree_summar
     scree_summary_set_number(summary, "rotation_felt", f->decay.limit);
     set_interval(summary, "rotation_chain_correlation", a->chains.value, a->chains.low, a->chains.high);
     set_interval(summary, "rotation_chain_alignment", a->alignment.value, a->alignment.low, a->alignment.high);
+    const scree_rotation_transmission *t = &f->transmission;
+    scree_summary_set_number(summary, "rotation_handed_strong", t->strong.value);
+    scree_summary_set_number(summary, "rotation_handed_weak", t->weak.value);
+    scree_summary_set_number(summary, "rotation_handed_aside", t->aside.value);
     if (s->state.dimension == 2) {
         double direction = atan2(axis[1], axis[0]);
         set_interval(summary, "rotation_across_chains", a->across.value, a->across.low, a->across.high);
@@ -166,6 +171,7 @@ scree_status scree_rotation_conclude(const scree_conclusion *run, scree_error *e
     scree_rotation_network_measure(&s->model, state, &s->table, f.forced, cutoff, &f.network);
     status = scree_rotation_alignment_measure(&s->model, state, &s->table, f.forced, cutoff, &f.decay, &f.network,
                                               &f.alignment, error);
+    scree_rotation_transmission_measure(&s->model, state, &s->table, f.forced, cutoff, f.decay.limit, &f.transmission);
     if (!status) summarise(s, &f, run->summary);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_DECAY, write_decay, s, &f, error);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_ROSE, write_rose, s, &f, error);

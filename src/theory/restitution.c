@@ -3,8 +3,10 @@
 /// Viscoelastic Hertz (Brilliantov et al. 1996; P 2.16, figure 2.1). With lengths in (m v^2 / K)^(2/5) and velocities
 /// in the impact speed v the equation of motion is
 ///     x'' = -sqrt(x) (x + tau x'),   x(0) = 0,  x'(0) = 1,   tau = T v^(1/5) (K / m)^(2/5),
-/// until x + tau x' = 0. It is integrated by GSL's Prince-Dormand pair of order 8 with a tolerance of 1e-12; the last
-/// step is bisected to the moment of release. Restitution falls with tau, hence with the speed. Cost: about 0.1 ms.
+/// until x + tau x' = 0, or with attraction until x = 0. There x'' + tau sqrt(x) x' = -x^1.5 < 0: bodies always part,
+/// but the slower the stronger the damping; longer than LONGEST is not waited for. It is integrated by GSL's
+/// Prince-Dormand pair of order 8 with a tolerance of 1e-12; the last step is bisected to the moment of release.
+/// Restitution falls with tau, hence with the speed. Cost: about 0.1 ms.
 ///
 /// Hertz with damping sqrt(m k) (Tsuji et al. 1992). In the same units x'' = -(x^1.5 + damping x^0.25 x'). With
 /// ds = x^(1/4) dt and y = x^(5/4) this is the linear oscillator (Antypov & Elliott 2011)
@@ -23,24 +25,32 @@
 
 static const double STRONGEST_DAMPING = 1000;
 static const double TOLERANCE = 1e-12;
+static const double LONGEST = 1e4; ///< of the time scale
 
-/// state: overlap and its rate; parameter: tau.
+/// An impact in its own units.
+typedef struct impact_equation {
+    double tau;
+    bool attraction;
+} impact_equation;
+
+/// state: overlap and its rate; parameter: the equation.
 static int impact_rates(double time, const double state[2], double rates[2], void *parameter)
 {
     (void)time;
-    double tau = *(const double *)parameter;
+    double tau = ((const impact_equation *)parameter)->tau;
     rates[0] = state[1];
     rates[1] = -sqrt(fmax(state[0], 0)) * (state[0] + tau * state[1]);
     return GSL_SUCCESS;
 }
 
-static double force_sign(const double state[2], double tau)
+/// Above zero as long as the bodies are together.
+static double hold(const double state[2], const impact_equation *e)
 {
-    return state[0] + tau * state[1];
+    return e->attraction ? state[0] : state[0] + e->tau * state[1];
 }
 
 /// Shortens the step that passed the release until it ends there. `state` and `time` enter as before that step.
-static scree_status find_release(gsl_odeiv2_step *stepper, const gsl_odeiv2_system *system, double tau, double longest,
+static scree_status find_release(gsl_odeiv2_step *stepper, const gsl_odeiv2_system *system, double longest,
                                  double *time, double state[2], scree_error *error)
 {
     double low = 0, high = longest, tried[2];
@@ -50,7 +60,7 @@ static scree_status find_release(gsl_odeiv2_step *stepper, const gsl_odeiv2_syst
         tried[1] = state[1];
         if (gsl_odeiv2_step_apply(stepper, *time, middle, tried, errors, NULL, NULL, system) != GSL_SUCCESS)
             return scree_error_set(error, SCREE_ERROR_INPUT, "the impact could not be integrated");
-        if (force_sign(tried, tau) > 0)
+        if (hold(tried, system->params) > 0)
             low = middle;
         else
             high = middle;
@@ -62,29 +72,30 @@ static scree_status find_release(gsl_odeiv2_step *stepper, const gsl_odeiv2_syst
 }
 
 /// Integrates the dimensionless impact to its release: speed and time there.
-static scree_status integrate_impact(double tau, gsl_odeiv2_step *stepper, gsl_odeiv2_control *control,
+static scree_status integrate_impact(impact_equation *e, gsl_odeiv2_step *stepper, gsl_odeiv2_control *control,
                                      gsl_odeiv2_evolve *evolution, double *speed, double *time, scree_error *error)
 {
-    const gsl_odeiv2_system system = {impact_rates, NULL, 2, &tau};
+    const gsl_odeiv2_system system = {impact_rates, NULL, 2, e};
     double state[2] = {0, 1}, step = 1e-6;
     *time = 0;
-    for (int steps = 0; steps < 1000000; steps++) {
+    for (int steps = 0; steps < 1000000 && *time < LONGEST; steps++) {
         double before[2] = {state[0], state[1]}, start = *time;
         if (gsl_odeiv2_evolve_apply(evolution, control, stepper, &system, time, 1e300, &step, state) != GSL_SUCCESS)
             break;
-        if (force_sign(state, tau) > 0 || state[1] > 0) continue;
+        if (hold(state, e) > 0 || state[1] > 0) continue;
         double length = *time - start;
         *time = start;
         gsl_odeiv2_step_reset(stepper);
-        scree_status status = find_release(stepper, &system, tau, length, time, before, error);
+        scree_status status = find_release(stepper, &system, length, time, before, error);
         *speed = -before[1];
         return status;
     }
-    return scree_error_set(error, SCREE_ERROR_INPUT, "the impact could not be integrated (scaled damping %g)", tau);
+    return scree_error_set(error, SCREE_ERROR_INPUT, "the impact could not be integrated (scaled damping %g%s)", e->tau,
+                           e->attraction ? "; with attraction bodies may hardly part" : "");
 }
 
 scree_status scree_impact_viscoelastic(double speed, double stiffness, double mass, double damping_time,
-                                       scree_impact *impact, scree_error *error)
+                                       bool attraction, scree_impact *impact, scree_error *error)
 {
     if (!(speed > 0) || !(stiffness > 0) || !(mass > 0) || !(damping_time >= 0))
         return scree_error_set(error, SCREE_ERROR_INPUT,
@@ -100,10 +111,11 @@ scree_status scree_impact_viscoelastic(double speed, double stiffness, double ma
     gsl_odeiv2_step *stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2);
     gsl_odeiv2_control *control = gsl_odeiv2_control_y_new(TOLERANCE, TOLERANCE);
     gsl_odeiv2_evolve *evolution = gsl_odeiv2_evolve_alloc(2);
+    impact_equation equation = {tau, attraction};
     double time = 0;
-    scree_status status = stepper && control && evolution
-                              ? integrate_impact(tau, stepper, control, evolution, &impact->restitution, &time, error)
-                              : scree_error_set_memory(error, sizeof(double[64]));
+    scree_status status = stepper && control && evolution ? integrate_impact(&equation, stepper, control, evolution,
+                                                                             &impact->restitution, &time, error)
+                                                          : scree_error_set_memory(error, sizeof(double[64]));
     impact->duration = time * time_scale;
     if (evolution) gsl_odeiv2_evolve_free(evolution);
     if (control) gsl_odeiv2_control_free(control);

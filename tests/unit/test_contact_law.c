@@ -10,6 +10,8 @@
 
 #include "theory/restitution.h"
 
+#include <float.h>
+
 #define ROUND_OFF 1e-12
 
 static void assert_close(double value, double expected, double relative)
@@ -184,12 +186,14 @@ static void friction_is_capped(void **unused)
 }
 
 /// Impact of two equal bodies at 2 v; returns the restitution, and the duration of the contact.
-static double collide(law_choice law, double damping, double damping_time, double v, double *duration)
+static double collide_above(double least, law_choice law, double damping, double damping_time, double v,
+                            double *duration)
 {
     fixture f;
     create_pair(&f, law, 1e-3, 0);
     f.model.pairs[0][0].value[HERTZ_DAMPING] = damping;
     law_numbers(&f.model, damping_time, 50);
+    if (law == HERTZ_BRILLIANTOV) f.model.laws[0].number[BRILLIANTOV_LEAST] = least;
     f.state.row[0].x += 1e-9;
     f.state.row[0].vx = -v;
     f.state.row[1].vx = v;
@@ -205,6 +209,11 @@ static double collide(law_choice law, double damping, double damping_time, doubl
     *duration = (double)touched * f.state.step_size;
     fixture_destroy(&f);
     return restitution;
+}
+
+static double collide(law_choice law, double damping, double damping_time, double v, double *duration)
+{
+    return collide_above(0, law, damping, damping_time, v, duration);
 }
 
 /// Without damping, an impact lasts 2.9433 d_max / (2 v), d_max = (5 m_eff (2 v)^2 / (4 K))^(2/5) (Hertz 1882).
@@ -237,10 +246,25 @@ static void restitution_of_brilliantov_is_that_of_theory(void **unused)
         scree_impact expected;
         scree_error error;
         double duration, time = 4e-7;
-        assert_int_equal(scree_impact_viscoelastic(2 * v, k, m, time, &expected, &error), SCREE_OK);
+        assert_int_equal(scree_impact_viscoelastic(2 * v, k, m, time, false, &expected, &error), SCREE_OK);
         assert_true(expected.restitution > 0.1 && expected.restitution < 0.95);
         assert_close(collide(HERTZ_BRILLIANTOV, 0, time, v, &duration), expected.restitution, 1e-3);
     }
+}
+
+/// With attraction the bodies part later, and slower; the damping is strong enough for it to show.
+static void attraction_holds_until_the_overlap_is_gone(void **unused)
+{
+    (void)unused;
+    scree_model model = fixture_model(HERTZ_BRILLIANTOV);
+    double duration, v = 0.8, time = 4e-6, k = 4e9 * sqrt(0.5e-3), m = 0.5 * fixture_mass(&model, 0, 1e-3);
+    scree_impact clipped, pulled;
+    assert_int_equal(scree_impact_viscoelastic(2 * v, k, m, time, false, &clipped, NULL), SCREE_OK);
+    assert_int_equal(scree_impact_viscoelastic(2 * v, k, m, time, true, &pulled, NULL), SCREE_OK);
+    assert_true(pulled.restitution < 0.95 * clipped.restitution && pulled.duration > 1.05 * clipped.duration);
+    assert_close(collide_above(0, HERTZ_BRILLIANTOV, 0, time, v, &duration), clipped.restitution, 1e-3);
+    assert_close(collide_above(-DBL_MAX, HERTZ_BRILLIANTOV, 0, time, v, &duration), pulled.restitution, 1e-3);
+    assert_close(duration, pulled.duration, 1e-3);
 }
 
 /// Slip of the single contact.
@@ -430,6 +454,7 @@ int main(void)
         cmocka_unit_test(elastic_impact_lasts_as_long_as_hertz_says),
         cmocka_unit_test(restitution_of_mindlin_is_that_of_theory),
         cmocka_unit_test(restitution_of_brilliantov_is_that_of_theory),
+        cmocka_unit_test(attraction_holds_until_the_overlap_is_gone),
         cmocka_unit_test(rolling_and_rigid_rotation_do_not_slip),
         cmocka_unit_test(exchanging_the_bodies_changes_nothing),
         cmocka_unit_test(a_quarter_turn_turns_the_forces),

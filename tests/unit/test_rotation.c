@@ -272,6 +272,46 @@ static void rotations_behind_a_strong_chain(void **unused)
 }
 
 /// Six like bonds around the body and everything else by symmetry: T is isotropic and symmetric.
+/// To the right forces are strong and rotations decay half as fast as to the left.
+static void contacts_hand_on_what_their_bodies_say(void **unused)
+{
+    (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        cluster c;
+        scree_rotation_transmission all, near;
+        create(&c, dimension);
+        double driven = scree_rotation_amount(&c.state, c.forced);
+        for (size_t k = 0; k < c.state.count; k++)
+            if (fabs(c.state.row[k].x) < 1e-9) {
+                c.state.sum[k].contacts = 1; // does not count
+            } else if (c.state.row[k].x < 0) {
+                double factor = scree_rotation_amount(&c.state, k) / driven;
+                if (dimension == 2) {
+                    c.state.angle[k] *= factor;
+                    continue;
+                }
+                c.state.turn[k].wx *= factor;
+                c.state.turn[k].wz *= factor;
+            }
+        for (size_t k = 0; k < c.table.count; k++) {
+            scree_contact *contact = &c.table.contact[k];
+            double middle = c.state.row[contact->first].x + c.state.row[contact->second].x;
+            contact->normal_force = middle > 1e-9 ? 3 : 1;
+        }
+        scree_rotation_transmission_measure(&c.model, &c.state, &c.table, c.forced, 10, 0, &all);
+        // The two sides mirror each other; those in the middle do not count.
+        assert_true(all.strong.count > 50 && all.weak.count > 50 && all.aside.count > 50);
+        assert_true(fabs(log(all.weak.value) / log(all.strong.value) - 2) < 1e-9);
+        // Between the centres of two bodies in contact that lead outward there are 0.7 to 1 diameters.
+        assert_true(all.strong.value > exp(-1 / DECAY) && all.strong.value < exp(-M_SQRT1_2 / DECAY));
+        assert_true(log(all.aside.value) > 0.7 * log(all.strong.value));
+        // Only what is felt: exp(-6 / DECAY) is 6 diameters on the right and 3 on the left.
+        scree_rotation_transmission_measure(&c.model, &c.state, &c.table, c.forced, 10, exp(-6 / DECAY), &near);
+        assert_true(near.weak.count < 0.5 * (double)near.strong.count && near.strong.count < all.strong.count);
+        destroy(&c);
+    }
+}
+
 static void an_isotropic_network_has_an_isotropic_tensor(void **unused)
 {
     (void)unused;
@@ -402,6 +442,7 @@ int main(void)
         cmocka_unit_test(spins_that_do_not_decay_have_no_reach),
         cmocka_unit_test(bodies_that_nothing_holds_do_not_count),
         cmocka_unit_test(rotations_behind_a_strong_chain),
+        cmocka_unit_test(contacts_hand_on_what_their_bodies_say),
         cmocka_unit_test(an_isotropic_network_has_an_isotropic_tensor),
         cmocka_unit_test(radial_and_tangential_segments),
         cmocka_unit_test(rotations_that_follow_chains_correlate),

@@ -5,6 +5,7 @@
 #include "theory/restitution.h"
 
 #include <math.h>
+#include <string.h>
 
 /// Padbidri 2010, appendix B: 983 discs, radii uniform in 0.5 to 1 mm, 100 kPa, 0.005 1/s, density 2.675e8 kg/m3,
 /// thickness 2 <R>. With the mean mass (<R^2> = 7/12 mm^2) phi is 1.205e-4, with the mass of the mean radius 1.162e-4;
@@ -152,7 +153,7 @@ static void test_viscoelastic_impact_without_damping(void **unused)
     (void)unused;
     scree_impact impact;
     const double speed = 0.3, stiffness = 4e8, mass = 0.37;
-    assert_int_equal(scree_impact_viscoelastic(speed, stiffness, mass, 0, &impact, NULL), SCREE_OK);
+    assert_int_equal(scree_impact_viscoelastic(speed, stiffness, mass, 0, false, &impact, NULL), SCREE_OK);
     // Hertz 1882: duration 2 d_max / v times the integral of dz / sqrt(1 - z^2.5), with d_max^2.5 = 1.25 m v^2 / K.
     double deepest = pow(1.25 * mass * speed * speed / stiffness, 0.4);
     double integral = 0.4 * tgamma(0.4) * tgamma(0.5) / tgamma(0.9);
@@ -168,12 +169,19 @@ static void test_viscoelastic_impact_with_damping(void **unused)
     double before = 1;
     for (int i = 0; i < 3; i++) {
         double speed = 7.5e-6, damping_time = taus[i] * pow(mass / stiffness, 0.4) * pow(speed, -0.2);
-        assert_int_equal(scree_impact_viscoelastic(speed, stiffness, mass, damping_time, &impact, NULL), SCREE_OK);
+        assert_int_equal(scree_impact_viscoelastic(speed, stiffness, mass, damping_time, false, &impact, NULL),
+                         SCREE_OK);
         assert_true(fabs(impact.restitution - integrate_impact(taus[i], 0.5, 0)) < RUNGE_KUTTA_ERROR);
         assert_true(impact.restitution < before);
         before = impact.restitution;
+        double released = impact.duration;
+        assert_int_equal(scree_impact_viscoelastic(speed, stiffness, mass, damping_time, true, &impact, NULL),
+                         SCREE_OK);
+        assert_true(fabs(impact.restitution - integrate_impact(taus[i], 0.5, 1)) < RUNGE_KUTTA_ERROR);
+        assert_true(impact.restitution < before && impact.duration > released);
+        impact.restitution = before;
         // Only T v^(1/5) matters. 1e-8: twice the accuracy promised.
-        assert_int_equal(scree_impact_viscoelastic(32 * speed, stiffness, mass, damping_time / 2, &faster, NULL),
+        assert_int_equal(scree_impact_viscoelastic(32 * speed, stiffness, mass, damping_time / 2, false, &faster, NULL),
                          SCREE_OK);
         assert_true(fabs(faster.restitution / impact.restitution - 1) < 2e-8);
     }
@@ -181,7 +189,7 @@ static void test_viscoelastic_impact_with_damping(void **unused)
     // impact.
     double slope = 0.8 * pow(1.25, 0.6) * tgamma(0.6) * tgamma(1.5) / tgamma(2.1), tau = 1e-4;
     assert_true(fabs(slope - 1.15344) < 1e-4);
-    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, tau, &impact, NULL), SCREE_OK);
+    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, tau, false, &impact, NULL), SCREE_OK);
     assert_true(fabs((1 - impact.restitution) / tau / slope - 1) < 10 * tau);
 }
 
@@ -190,11 +198,13 @@ static void test_viscoelastic_impact_refuses(void **unused)
     (void)unused;
     scree_impact impact;
     scree_error error;
-    assert_int_equal(scree_impact_viscoelastic(0, 1, 1, 0, &impact, &error), SCREE_ERROR_INPUT);
-    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, NAN, &impact, &error), SCREE_ERROR_INPUT);
-    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, 1001, &impact, &error), SCREE_ERROR_INPUT);
-    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, 1000, &impact, &error), SCREE_OK);
+    assert_int_equal(scree_impact_viscoelastic(0, 1, 1, 0, false, &impact, &error), SCREE_ERROR_INPUT);
+    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, NAN, false, &impact, &error), SCREE_ERROR_INPUT);
+    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, 1001, false, &impact, &error), SCREE_ERROR_INPUT);
+    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, 1000, false, &impact, &error), SCREE_OK);
     assert_true(impact.restitution > 0 && impact.restitution < 0.01);
+    assert_int_equal(scree_impact_viscoelastic(1, 1, 1, 1000, true, &impact, &error), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "attraction"));
 }
 
 int main(void)

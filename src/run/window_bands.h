@@ -1,0 +1,27 @@
+/// Localisation in two strain windows of a case that adjoin each other: does it stay, and does it intensify?
+#ifndef SCREE_RUN_WINDOW_BANDS_H
+#define SCREE_RUN_WINDOW_BANDS_H
+
+#include "case/config.h"
+#include "io/cell_file.h"
+
+/// Axial strains at which three instants lie.
+typedef struct scree_adjoining {
+    double strain[3];
+} scree_adjoining;
+
+/// The first window of `measure` that ends where the next one in the list begins, and that one; false: there is none.
+bool scree_windows_adjoin(const scree_config_measure *measure, scree_adjoining *out);
+
+typedef struct scree_window_bands {
+    double correlation; ///< of the smoothed distortions at the bodies, first and second window
+    double overlap;     ///< bodies in both bands over bodies in either; 0 where a window has none
+    double index[2];    ///< localisation index of each window
+} scree_window_bands;
+
+/// Compares the motions first -> middle and middle -> last. Cells are those of the begin of each. Errors: memory.
+scree_status scree_window_bands_compare(const scree_cell_snapshot *first, const scree_cell_snapshot *middle,
+                                        const scree_cell_snapshot *last, scree_window_bands *out,
+                                        scree_error *error) SCREE_MUST_USE;
+
+#endif
