@@ -144,17 +144,32 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
     }
 }
 
-#define WALLS_OF_LAW(law_)                                                                                             \
+#define WALLS_OF_LAW(law_, geometry_)                                                                                  \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 3)                                                                \
-        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, wall,    \
+        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, geometry_}, wall,     \
                        pairs, row_begin, row_end);                                                                     \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 2)                                                                \
-        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, wall,    \
+        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, geometry_}, wall,     \
                        pairs, row_begin, row_end);
 
+/// Of geometries of one by one, apart from that in lanes, whose walls are as fast as if there were no others.
+#define WALLS_ONE_BY_ONE(law_) WALLS_OF_LAW(law_, v.geometry)
+__attribute__((noinline)) static void walls_one_by_one(contact_job *job, const scree_wall *wall,
+                                                       const scree_wall_pair_list *pairs, size_t row_begin,
+                                                       size_t row_end)
+{
+    const variant v = job->variant;
+    SCREE_LAWS(WALLS_ONE_BY_ONE)
+}
+
+#define WALLS_IN_LANES(law_) WALLS_OF_LAW(law_, GEOMETRIES_IN_LANES == 1 ? 0 : v.geometry)
 void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
                    size_t row_end)
 {
     const variant v = job->variant;
-    SCREE_LAWS(WALLS_OF_LAW)
+    if (geometry_is_one_by_one(v)) {
+        walls_one_by_one(job, wall, pairs, row_begin, row_end);
+        return;
+    }
+    SCREE_LAWS(WALLS_IN_LANES)
 }

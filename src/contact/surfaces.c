@@ -360,6 +360,24 @@ static bool holds_memory(const group *g)
         evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, state,   \
                        &g);
 
+/// In the plane geometries of one by one stand apart from that in lanes, which is as fast as if there were no others.
+__attribute__((noinline)) static void evaluate_one_by_one(contact_job *job, const scree_state *state, group *g)
+{
+    const variant v = job->variant;
+    evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, v.geometry}, state, g);
+}
+
+static void evaluate_in_plane(contact_job *job, const scree_state *state, group *g)
+{
+    const variant v = job->variant;
+    const int geometry = GEOMETRIES_IN_LANES == 1 ? 0 : v.geometry;
+    if (geometry_is_one_by_one(v)) {
+        evaluate_one_by_one(job, state, g);
+        return;
+    }
+    evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, geometry}, state, g);
+}
+
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
     const variant v = job->variant;
@@ -374,8 +392,7 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         place_of(v.dimension, &one, g.position);
         if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change
         SCREE_LAWS(GROUP_OF_LAW)
-        if (v.dimension == 2)
-            evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, v.geometry}, state, &g);
+        if (v.dimension == 2) evaluate_in_plane(job, state, &g);
     }
 }
 

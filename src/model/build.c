@@ -394,7 +394,8 @@ static scree_status resolve_geometry(scree_model *model, scree_error *error)
                        scree_modules[model->laws[0].law]->name, others);
 }
 
-/// What geometries with gains do not know: bonds, bodies whose surfaces move, friction that asks for the coming step.
+/// What geometries with gains do not know: laws that stick, bonds, bodies whose surfaces move, friction that asks for
+/// the coming step.
 static scree_status check_gains(const scree_model *model, scree_error *error)
 {
     if (!(model->largest_gain > 1)) return SCREE_OK;
@@ -405,12 +406,12 @@ static scree_status check_gains(const scree_model *model, scree_error *error)
         const scree_law_traits *traits = scree_law_use_traits(&model->laws[k]);
         if (traits->deforms)
             return FIELD_ERROR(error, "particles.rounding", "polygons are rigid: particles that deform are discs");
+        const char *name = scree_modules[model->laws[k].law]->name;
+        if (traits->pulls || traits->necks)
+            return FIELD_ERROR(error, "contact.law", "law %s sticks: rounded polygons need one that only pushes", name);
         if (traits->looks_ahead)
-            return FIELD_ERROR(
-                error, "contact.friction_update",
-                "the implicit friction of law %s is that of discs: polygons need contact.friction_update: "
-                "explicit, or another law",
-                scree_modules[model->laws[k].law]->name);
+            return FIELD_ERROR(error, "contact.friction_update",
+                               "the implicit friction of law %s is that of discs: set it to explicit", name);
     }
     return SCREE_OK;
 }
