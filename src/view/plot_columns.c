@@ -182,16 +182,18 @@ static const char *quantity_of(const char *unit)
     return "value";
 }
 
-/// "stress (kPa)" with the prefix that suits the values, which are scaled with it. Ratios and steps keep theirs.
+/// "stress (kPa)" with the prefix that suits the values, which are scaled with it; strains are in percent. Ratios and
+/// steps keep their numbers.
 static void label_axis(char *label, size_t size, const char *words, const char *unit, double *value, size_t count)
 {
     static const char *const prefixed[] = {"Pa", "J", "N", "m", "s", "m/s", "W"};
+    const bool percent = strcmp(unit, "1") == 0 && strstr(words, "strain");
     char pattern[200];
     bool has_prefix = false;
     for (size_t k = 0; k < sizeof prefixed / sizeof *prefixed; k++) has_prefix |= strcmp(prefixed[k], unit) == 0;
-    (void)snprintf(pattern, sizeof pattern, "%s (%s%s)", words, has_prefix ? "@" : "", unit);
+    (void)snprintf(pattern, sizeof pattern, "%s (%s%s)", words, has_prefix ? "@" : "", percent ? "%" : unit);
     double factor = scree_plot_label(label, size, pattern, scree_plot_largest(value, count));
-    for (size_t k = 0; k < count; k++) value[k] *= factor;
+    for (size_t k = 0; k < count; k++) value[k] *= percent ? 100 : factor;
 }
 
 /// Stem of the files: the columns, and the stages.
