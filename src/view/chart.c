@@ -202,7 +202,32 @@ static void write_range(FILE *file, const scree_chart_line *line, size_t x, size
     fputs(" notitle", file);
 }
 
-static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_t y, chart_scale scale,
+/// Whether a later line of the same kind lies upon line `k` along a quarter of it: closer than the width of a line.
+static bool is_hidden(const scree_chart *chart, size_t k)
+{
+    const scree_chart_line *line = &chart->line[k];
+    double low = INFINITY, high = -INFINITY;
+    for (size_t row = 0; row < line->count; row++)
+        if (isfinite(line->y[row])) {
+            low = fmin(low, line->y[row]);
+            high = fmax(high, line->y[row]);
+        }
+    for (size_t other = k + 1; other < chart->line_count; other++) {
+        const scree_chart_line *upon = &chart->line[other];
+        size_t same = 0, all = 0;
+        if (upon->x != line->x || upon->count != line->count || upon->dashed || line->dashed || upon->points) continue;
+        for (size_t row = 0; row < line->count; row++) {
+            if (!isfinite(line->y[row]) || !isfinite(upon->y[row])) continue;
+            all++;
+            same += fabs(line->y[row] - upon->y[row]) <= 0.004 * (high - low);
+        }
+        if (all > 0 && 4 * same >= all) return true;
+    }
+    return false;
+}
+
+/// `width`: of the line; one that another lies upon is wider, so that both are seen.
+static void write_line(FILE *file, const scree_chart_line *line, double width, size_t x, size_t y, chart_scale scale,
                        const char *colour)
 {
     write_column(file, "", x, scale.x);
@@ -212,7 +237,7 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
             : line->points ? "linespoints"
                            : "lines",
             colour);
-    fprintf(file, " linewidth 2%s%s", line->bare ? "" : " dashtype ",
+    fprintf(file, " linewidth %g%s%s", width, line->bare ? "" : " dashtype ",
             line->bare     ? ""
             : line->dashed ? "(7,4)"
                            : "solid");
@@ -250,7 +275,7 @@ static void write_plot(FILE *file, const scree_chart *chart, const char *name)
             }
             if (bands) continue;
             begin_plot(file, name, first);
-            write_line(file, line, x_column, y_column, scale, colour);
+            write_line(file, line, is_hidden(chart, k) ? 5 : 2, x_column, y_column, scale, colour);
             first = false;
         }
     }
