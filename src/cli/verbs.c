@@ -512,7 +512,7 @@ static const scree_verb run_verbs[] = {
         .example = {{"scree plot out", "after a run with --no-figures"},
                     {"scree plot out --list", "what there is to draw"},
                     {"scree plot out --only stress-ratio,packing-end", "two figures"},
-                    {"scree plot out --x axial_strain --y stress_axial_plates,stress_lateral_applied --stage compress",
+                    {"scree plot out --x axial_strain --y kinetic,elastic_normal --stage compress",
                      "a chart of one's own"},
                     {"scree plot out --scene speed --at '1 %'", "a scene of one's own"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
