@@ -5,6 +5,7 @@
 #include <scree/case.h>
 #include <scree/keeper.h>
 #include <scree/view.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -102,6 +103,33 @@ SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *u
 /// what a figure that was asked for needs.
 SCREE_API scree_status scree_plot_only(const char *directory, const char *names,
                                        void (*message)(void *user, const char *path), void *user, scree_error *error);
+
+/// A chart that the user asks for.
+typedef struct scree_plot_columns {
+    const char *x;     ///< column of series.csv; NULL: time
+    const char *y;     ///< columns, separated by commas, all of one unit
+    const char *stage; ///< stages by name, kind or number, separated by commas; NULL: all rows
+} scree_plot_columns;
+
+/// Draws columns of series.csv over another one into `directory`/figures. Errors beside those of scree_plot:
+/// SCREE_ERROR_INPUT when there is no such column or stage (`accepted` holds the nearest, or all), or units differ.
+SCREE_API scree_status scree_plot_chart(const char *directory, const scree_plot_columns *columns,
+                                        void (*message)(void *user, const char *path), void *user, scree_error *error);
+
+/// A scene that the user asks for.
+typedef struct scree_plot_scene {
+    const char *field; ///< name of scree_plot_field_visit
+    const char *at;    ///< end (NULL), start, #N, an axial strain, a time with its unit, or a stage for its end
+    bool section;      ///< spheres where a plane cuts them, in place of the view from outside
+} scree_plot_scene;
+
+/// Draws the bodies of one snapshot, coloured by a field, into `directory`/figures. Errors beside those of scree_plot:
+/// SCREE_ERROR_INPUT when there is no such field (`accepted` holds the nearest) or snapshot, or no sphere to cut.
+SCREE_API scree_status scree_plot_field(const char *directory, const scree_plot_scene *scene,
+                                        void (*message)(void *user, const char *path), void *user, scree_error *error);
+
+/// Calls `visit` for every field of scenes: its name and what it is.
+SCREE_API void scree_plot_field_visit(void (*visit)(void *user, const char *name, const char *meaning), void *user);
 
 /// Calls `visit` for every figure that can be drawn of a run, in the order in which they are drawn. Errors as of
 /// scree_plot; figures of the files that can be read are told all the same.

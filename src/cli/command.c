@@ -21,19 +21,20 @@ scree_status scree_command_refuse(scree_error *error, const char *field, const c
     return SCREE_ERROR_INPUT;
 }
 
-static const scree_verb_option *find_in(const scree_verb_option *row, const char *name, size_t length)
+/// By its letter, or, with two dashes, by its whole name.
+static const scree_verb_option *find_in(const scree_verb_option *row, const char *name, size_t length, bool longer)
 {
     for (; row->name; row++) {
-        if (length == 1 && row->letter == name[0]) return row;
-        if (length > 1 && strlen(row->name) == length && strncmp(row->name, name, length) == 0) return row;
+        if (!longer && row->letter == name[0]) return row;
+        if (longer && strlen(row->name) == length && strncmp(row->name, name, length) == 0) return row;
     }
     return NULL;
 }
 
-static const scree_verb_option *find_option(const scree_verb *verb, const char *name, size_t length)
+static const scree_verb_option *find_option(const scree_verb *verb, const char *name, size_t length, bool longer)
 {
-    const scree_verb_option *found = find_in(verb->option, name, length);
-    return found ? found : find_in(scree_common_options, name, length);
+    const scree_verb_option *found = find_in(verb->option, name, length, longer);
+    return found ? found : find_in(scree_common_options, name, length, longer);
 }
 
 /// Says which option is nearest, or else which there are.
@@ -65,7 +66,7 @@ static scree_status parse_option(scree_command *command, size_t count, char *con
     bool longer = word[1] == '-';
     const char *name = word + (longer ? 2 : 1);
     size_t length = longer ? strcspn(name, "=") : 1;
-    const scree_verb_option *option = longer && length == 1 ? NULL : find_option(command->verb, name, length);
+    const scree_verb_option *option = find_option(command->verb, name, length, longer);
     if (!option) return refuse_option(command->verb, word, (size_t)(name - word) + length, error);
     const char *value = name[length] ? name + length + (longer ? 1 : 0) : NULL;
     char shown[64];

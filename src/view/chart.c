@@ -20,6 +20,7 @@
 #define COLOURS    7
 #define TEXT_LIMIT 512
 #define CHARACTER  7.5 /* pt, width of one at the size of the numbers */
+#define KEY_SAMPLE 42  /* pt, what stands before a text of the legend */
 
 static const char *const palette[COLOURS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#56b4e9", "#e69f00", "#000000"};
@@ -201,7 +202,32 @@ static void write_range(FILE *file, const scree_chart_line *line, size_t x, size
     fputs(" notitle", file);
 }
 
-static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_t y, chart_scale scale,
+/// Whether a later line of the same kind lies upon line `k` along a quarter of it: closer than the width of a line.
+static bool is_hidden(const scree_chart *chart, size_t k)
+{
+    const scree_chart_line *line = &chart->line[k];
+    double low = INFINITY, high = -INFINITY;
+    for (size_t row = 0; row < line->count; row++)
+        if (isfinite(line->y[row])) {
+            low = fmin(low, line->y[row]);
+            high = fmax(high, line->y[row]);
+        }
+    for (size_t other = k + 1; other < chart->line_count; other++) {
+        const scree_chart_line *upon = &chart->line[other];
+        size_t same = 0, all = 0;
+        if (upon->x != line->x || upon->count != line->count || upon->dashed || line->dashed || upon->points) continue;
+        for (size_t row = 0; row < line->count; row++) {
+            if (!isfinite(line->y[row]) || !isfinite(upon->y[row])) continue;
+            all++;
+            same += fabs(line->y[row] - upon->y[row]) <= 0.004 * (high - low);
+        }
+        if (all > 0 && 4 * same >= all) return true;
+    }
+    return false;
+}
+
+/// `width`: of the line; one that another lies upon is wider, so that both are seen.
+static void write_line(FILE *file, const scree_chart_line *line, double width, size_t x, size_t y, chart_scale scale,
                        const char *colour)
 {
     write_column(file, "", x, scale.x);
@@ -211,7 +237,7 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
             : line->points ? "linespoints"
                            : "lines",
             colour);
-    fprintf(file, " linewidth 2%s%s", line->bare ? "" : " dashtype ",
+    fprintf(file, " linewidth %g%s%s", width, line->bare ? "" : " dashtype ",
             line->bare     ? ""
             : line->dashed ? "(7,4)"
                            : "solid");
@@ -249,7 +275,7 @@ static void write_plot(FILE *file, const scree_chart *chart, const char *name)
             }
             if (bands) continue;
             begin_plot(file, name, first);
-            write_line(file, line, x_column, y_column, scale, colour);
+            write_line(file, line, is_hidden(chart, k) ? 5 : 2, x_column, y_column, scale, colour);
             first = false;
         }
     }
@@ -315,6 +341,17 @@ static bool begins_at_zero(const scree_chart *chart)
     return low >= 0 && low < 0.25 * high;
 }
 
+/// Where the plot ends, as a share of the page: the legend behind it takes what its longest text needs.
+static double find_right(const scree_chart *chart)
+{
+    size_t longest = 0;
+    for (size_t k = 0; k < chart->line_count; k++) {
+        const size_t length = chart->line[k].label ? strlen(chart->line[k].label) : 0;
+        if (length > longest) longest = length;
+    }
+    return fmax(0.45, fmin(0.70, 0.985 - (KEY_SAMPLE + CHARACTER * (double)longest) / WIDTH));
+}
+
 /// Everything but the data: the look of all charts.
 static void write_style(FILE *file, const scree_chart *chart)
 {
@@ -338,10 +375,14 @@ static void write_style(FILE *file, const scree_chart *chart)
           file);
     bool legend = false;
     for (size_t k = 0; k < chart->line_count; k++) legend |= chart->line[k].label != NULL;
-    fputs(legend ? "set rmargin at screen 0.70\n"
-                   "set key at screen 0.715,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n"
-                 : "set rmargin at screen 0.945\nunset key\n",
-          file);
+    const double right = find_right(chart);
+    if (legend)
+        fprintf(file,
+                "set rmargin at screen %.2f\n"
+                "set key at screen %.3f,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n",
+                right, right + 0.015);
+    else
+        fputs("set rmargin at screen 0.945\nunset key\n", file);
     bool zero = !chart->log_y && begins_at_zero(chart);
     const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
     fprintf(file, "set offsets %s, %s, graph 0.03, %s\n%s", side, side, zero ? "0" : "graph 0.03",

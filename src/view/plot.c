@@ -163,7 +163,7 @@ static void draw_figure(const scree_plot_run *run, const scree_figure_job *job, 
     report(d, job->name, job->path, status, &error);
 }
 
-static scree_status make_folder(scree_plot_run *run, scree_error *error)
+scree_status scree_plot_make_folder(scree_plot_run *run, scree_error *error)
 {
     scree_status status = scree_path_join(run->figures, sizeof run->figures - SCREE_FIGURE_NAME - 2, run->directory,
                                           SCREE_FOLDER_FIGURES, error);
@@ -179,7 +179,7 @@ scree_status scree_plot_draw(const char *directory, const char *names, void (*me
     drawing d = {.names = names, .message = message, .user = user};
     scree_status status = scree_plot_run_open(&run, directory, error);
     if (!status) status = check_names(&run, names, error);
-    if (!status) status = make_folder(&run, error);
+    if (!status) status = scree_plot_make_folder(&run, error);
     if (!status) {
         if (run.series_status) report(&d, SCREE_FILE_SERIES, NULL, run.series_status, &run.series_error);
         if (run.snapshot_status) report(&d, SCREE_FILE_RUN, NULL, run.snapshot_status, &run.snapshot_error);
@@ -191,8 +191,7 @@ scree_status scree_plot_draw(const char *directory, const char *names, void (*me
     return status;
 }
 
-/// Without a folder there is no run, and reading says so.
-static scree_status lock(scree_folder_lock *taken, const char *directory, scree_error *error)
+scree_status scree_plot_lock(scree_folder_lock *taken, const char *directory, scree_error *error)
 {
     *taken = (scree_folder_lock){0};
     if (access(directory, F_OK) != 0) return SCREE_OK;
@@ -203,7 +202,7 @@ scree_status scree_plot_only(const char *directory, const char *names, void (*me
                              void *user, scree_error *error)
 {
     scree_folder_lock taken;
-    scree_status status = lock(&taken, directory, error);
+    scree_status status = scree_plot_lock(&taken, directory, error);
     if (!status) status = scree_plot_draw(directory, names, message, user, error);
     scree_folder_lock_release(&taken);
     return status;
@@ -235,7 +234,7 @@ scree_status scree_figure_visit(const char *directory, void (*visit)(void *user,
     scree_folder_lock taken;
     scree_plot_run run = {0};
     listing l = {visit, user};
-    scree_status status = lock(&taken, directory, error);
+    scree_status status = scree_plot_lock(&taken, directory, error);
     if (!status) status = scree_plot_run_open(&run, directory, error);
     if (!status) {
         visit_figures(&run, list_figure, &l);

@@ -94,8 +94,7 @@ static bool gather(const scree_plot_run *run, const char *column, double factor,
     return all != NULL;
 }
 
-/// Writes the label of an axis with the SI prefix for values up to `largest`. Returns the factor that goes with it.
-static double write_label(char *label, size_t size, const char *pattern, double largest)
+double scree_plot_label(char *label, size_t size, const char *pattern, double largest)
 {
     static const struct {
         double unit;
@@ -109,7 +108,7 @@ static double write_label(char *label, size_t size, const char *pattern, double 
     return 1 / prefix[k].unit;
 }
 
-static double largest_magnitude(const double *value, size_t count)
+double scree_plot_largest(const double *value, size_t count)
 {
     double largest = 0;
     for (size_t k = 0; k < count; k++)
@@ -166,7 +165,8 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
     size_t count = gather_curves(run, row, value, line);
     double *first = value + run->row_count;
-    double scale = write_label(label, sizeof label, row->y_label, largest_magnitude(first, count * run->row_count));
+    double scale =
+        scree_plot_label(label, sizeof label, row->y_label, scree_plot_largest(first, count * run->row_count));
     for (size_t k = 0; k < count * run->row_count; k++) first[k] *= scale;
     scree_chart chart = {.title = row->title,
                          .x_label = strain,

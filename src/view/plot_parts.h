@@ -3,6 +3,7 @@
 #define SCREE_VIEW_PLOT_PARTS_H
 
 #include "case/config.h"
+#include "io/folder_lock.h"
 #include "io/loading_stage.h"
 #include "io/snapshot.h"
 #include "view/figures.h"
@@ -31,6 +32,15 @@ typedef struct scree_plot_run {
 scree_status scree_plot_run_open(scree_plot_run *run, const char *directory, scree_error *error) SCREE_MUST_USE;
 void scree_plot_run_close(scree_plot_run *run);
 
+/// `field` is the option at fault, `message` has one "%s" for the name.
+scree_status scree_plot_refuse(scree_error *error, const char *option, const char *accepted, const char *message,
+                               const char *name);
+
+/// Makes the folder of the figures; run->figures leaves room for the name of one behind it.
+scree_status scree_plot_make_folder(scree_plot_run *run, scree_error *error) SCREE_MUST_USE;
+/// Keeps others from writing into the run. Without a folder there is no run, and reading says so.
+scree_status scree_plot_lock(scree_folder_lock *taken, const char *directory, scree_error *error) SCREE_MUST_USE;
+
 /// Which snapshot a figure shows. WINDOW: in the middle of the first strain window.
 typedef enum scree_plot_when { SCREE_AT_START, SCREE_AT_PEAK, SCREE_AT_WINDOW, SCREE_AT_END } scree_plot_when;
 
@@ -49,6 +59,20 @@ scree_status scree_plot_read_two(const scree_plot_run *run, size_t first, size_t
 /// Draws spheres where a plane cuts them.
 scree_status scree_plot_section(const char *path, const scree_snapshot *now, scree_scene *scene,
                                 scree_error *error) SCREE_MUST_USE;
+
+/// Draws spheres from outside.
+scree_status scree_plot_space(const char *path, const scree_snapshot *now, scree_scene *scene,
+                              scree_error *error) SCREE_MUST_USE;
+/// Without a loading stage the start is the end of the preparation, whose plates need not stay: only those that stand
+/// in the next snapshot, too, are left.
+scree_status scree_plot_keep_standing(const scree_plot_run *run, size_t which, scree_snapshot *now,
+                                      scree_error *error) SCREE_MUST_USE;
+
+/// Writes the label of an axis, "stress (@Pa)", with the SI prefix for values up to `largest` in place of the "@".
+/// Returns the factor that goes with it.
+double scree_plot_label(char *label, size_t size, const char *pattern, double largest);
+/// Largest finite magnitude; 1 when all are nothing.
+double scree_plot_largest(const double *value, size_t count);
 
 /// Strain as text of a file name or a title: whole percents where it is one.
 void scree_plot_percent(char *text, size_t size, double strain, bool name);

@@ -129,11 +129,8 @@ scree_status scree_plot_section(const char *path, const scree_snapshot *now, scr
     return status;
 }
 
-/// Draws what the entry says of spheres: from outside, or cut.
-static scree_status draw_in_space(const char *path, const scree_snapshot *now, int view, scree_scene *scene,
-                                  scree_error *error)
+scree_status scree_plot_space(const char *path, const scree_snapshot *now, scree_scene *scene, scree_error *error)
 {
-    if (view == VIEW_SECTION) return scree_plot_section(path, now, scene, error);
     scree_projection projection;
     scree_status status = scree_projection_create(now, &projection, error);
     if (status) return status;
@@ -161,8 +158,9 @@ static scree_status draw_scene(const scree_plot_run *run, const scree_figure_job
                          .of_cell = run->of_cell,
                          .plates = true};
     if (!status)
-        status = entry->view == VIEW_PLANE ? scree_scene_draw(job->path, now, &scene, error)
-                                           : draw_in_space(job->path, now, entry->view, &scene, error);
+        status = entry->view == VIEW_PLANE   ? scree_scene_draw(job->path, now, &scene, error)
+                 : entry->view == VIEW_SPACE ? scree_plot_space(job->path, now, &scene, error)
+                                             : scree_plot_section(job->path, now, &scene, error);
     scree_release(&field);
     return status;
 }
@@ -180,9 +178,7 @@ static scree_status has_snapshot(const scree_plot_run *run, const scree_figure_j
     return scree_plot_find_snapshot(run, ((const scene_row *)job->figure)->when, &which, error);
 }
 
-/// Without a loading stage the start is the end of the preparation, whose plates need not stay: only those that stand
-/// in the next snapshot, too, are left.
-static scree_status keep_standing(const scree_plot_run *run, size_t which, scree_snapshot *now, scree_error *error)
+scree_status scree_plot_keep_standing(const scree_plot_run *run, size_t which, scree_snapshot *now, scree_error *error)
 {
     scree_snapshot next;
     if (which > 0 || isfinite(run->strain[which]) || run->snapshot_count < 2) return SCREE_OK;
@@ -211,7 +207,7 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     else if (!status)
         status = scree_snapshot_read(run->directory, which, &now, error);
     if (status) return status;
-    status = keep_standing(run, which, &now, error);
+    status = scree_plot_keep_standing(run, which, &now, error);
     if (!status) status = draw_scene(run, job, &start, &now, error);
     scree_snapshot_destroy(&start);
     scree_snapshot_destroy(&now);

@@ -122,6 +122,38 @@ expect 2 "^scree plot: stress-ration: .*\(accepted: stress-ratio\)$" "$scree" pl
 expect 2 '^scree plot: --only: does not go with --list' "$scree" plot out --only stress --list
 expect 2 'shear-ratio: .*no figure of this name' "$scree" plot out --only shear-ratio # of periodic cells
 
+# --- plot: charts and scenes of one's own
+expect 0 '^out/figures/stress_axial_plates-stress_lateral_applied-over-axial_strain-compress.svg$' \
+    "$scree" plot out --x axial_strain --y stress_axial_plates,stress_lateral_applied --stage compress
+data=out/figures/stress_axial_plates-stress_lateral_applied-over-axial_strain-compress.csv
+same "$(head -1 "$data")" '"axial strain (%)","stress axial plates","stress lateral applied"'
+rows=$(awk -F, -v stage="$(sed -n 1p out/series.csv | tr , '\n' | grep -n '^stage ' | cut -d: -f1)" '$stage == 2' out/series.csv | wc -l)
+same "$(($(wc -l <"$data") - 1))" "$rows" "rows of the chart against those of the stage"
+expect 0 'height-over-time.svg$' "$scree" plot out --y height
+same "$(($(wc -l <out/figures/height-over-time.csv)))" "$(($(wc -l <out/series.csv)))" "rows of a chart of all stages"
+expect 0 'over-time.svg$' "$scree" plot out --y height,height
+same "$(grep -o 'linewidth [0-9]* ' out/figures/height-height-over-time.gp | sort | uniq -c | tr -s ' \n' ' ')" ' 1 linewidth 2 1 linewidth 5 ' "a line that hides another"
+expect 2 "^scree plot: --y: .*no column 'hight' \(accepted: height\)$" "$scree" plot out --y hight
+expect 2 "^scree plot: --x: .*no column 'axial_strai' \(accepted: axial_strain\)$" "$scree" plot out --y height --x axial_strai
+expect 2 "^scree plot: --y: .*another: 'coordination' \(accepted: m\)$" "$scree" plot out --y height,coordination
+expect 2 "^scree plot: --stage: .*'shear' \(accepted: a number, .*, compress\)$" "$scree" plot out --y height --stage shear
+expect 2 '^scree plot: --x: needs --y' "$scree" plot out --x time
+expect 2 '^scree plot: --only: does not go with --y' "$scree" plot out --y height --only stress
+expect 0 '^out/figures/scene-speed-000000.svg$' "$scree" plot out --scene speed --at start
+expect 0 '^out/figures/scene-displacement_y-[0-9]*.svg$' "$scree" plot out --scene displacement_y
+[ -s "${output%.svg}.png" ] || complain "the scene has no PNG"
+last=$output
+expect 0 'svg$' "$scree" plot out --scene displacement_y --at compress
+same "$output" "$last" "the end of the last stage against the end"
+expect 0 'svg$' "$scree" plot out --scene displacement_y --at '1 %'
+same "$output" "$last" "the strain at the end against the end"
+expect 0 'scene-forces' "$scree" plot out --scene forces --at confine
+expect 2 "^scree plot: --scene: .*no field 'sped' \(accepted: speed\)$" "$scree" plot out --scene sped
+expect 2 "^scree plot: --scene: .*no field 'velocity_z'" "$scree" plot out --scene velocity_z # of spheres
+expect 2 "^scree plot: --at: .*no snapshot of 'peek'" "$scree" plot out --scene speed --at peek
+expect 2 '^scree plot: --section: discs cannot be cut' "$scree" plot out --scene speed --section
+expect 2 '^scree plot: --at: needs --scene' "$scree" plot out --at end
+
 # --- a run that is interrupted or killed and continued ends where an uninterrupted one does
 long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')
 "$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"

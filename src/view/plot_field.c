@@ -1,0 +1,307 @@
+/// A scene that the user asks for: the bodies of one snapshot, coloured by a field, or the network of their forces.
+#include "view/plot_parts.h"
+
+#include "base/memory.h"
+#include "base/units.h"
+#include "io/run_directory.h"
+#include "io/sample_file.h"
+
+#include <scree/scree.h>
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// What a field is made of: `now` and, of fields that compare, `start`.
+typedef void field_values(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value);
+
+typedef struct field_row {
+    const char *name, *meaning, *unit; ///< "@" stands for the SI prefix that suits the values
+    scree_colour_map map;
+    field_values *values; ///< NULL: the force network
+    int axis, dimension;  ///< of the run that has it; 0: any
+    bool compares;
+} field_row;
+
+// ---- fields ------------------------------------------------------------------------------------------------------
+
+static double length_of(double x, double y, double z)
+{
+    return sqrt(x * x + y * y + z * z);
+}
+
+static void take_speed(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)start;
+    const double *const component[] = {now->vx, now->vy, now->vz};
+    for (size_t k = 0; k < now->count; k++)
+        value[k] = axis >= 0 ? component[axis][k] : length_of(now->vx[k], now->vy[k], now->vz ? now->vz[k] : 0);
+}
+
+static void take_displacement(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    for (size_t k = 0; k < now->count; k++) {
+        const double move[] = {now->x[k] - start->x[k], now->y[k] - start->y[k], now->z ? now->z[k] - start->z[k] : 0};
+        value[k] = axis >= 0 ? move[axis] : length_of(move[0], move[1], move[2]);
+    }
+}
+
+static void take_rotation(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)axis;
+    for (size_t k = 0; k < now->count; k++) value[k] = (now->angle[k] - start->angle[k]) * 180 / M_PI;
+}
+
+static void take_spin(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)start;
+    (void)axis;
+    memcpy(value, now->spin, now->count * sizeof *value);
+}
+
+static void take_radius(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)start;
+    (void)axis;
+    memcpy(value, now->radius, now->count * sizeof *value);
+}
+
+static void take_birth(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)start;
+    (void)axis;
+    for (size_t k = 0; k < now->count; k++) value[k] = now->birth ? now->birth[k] : NAN;
+}
+
+/// Contacts that bear a force, with walls among them.
+static void take_coordination(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)start;
+    (void)axis;
+    memset(value, 0, now->count * sizeof *value);
+    for (size_t k = 0; k < now->contact_count; k++) {
+        if (now->normal_force[k] == 0) continue;
+        if (now->first[k] < now->count) value[now->first[k]]++;
+        if (now->second[k] < now->count) value[now->second[k]]++;
+    }
+}
+
+/// The largest normal force of the contacts of each body.
+static void take_force(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value)
+{
+    (void)start;
+    (void)axis;
+    memset(value, 0, now->count * sizeof *value);
+    for (size_t k = 0; k < now->contact_count; k++) {
+        const uint32_t end[] = {now->first[k], now->second[k]};
+        for (int e = 0; e < 2; e++)
+            if (end[e] < now->count) value[end[e]] = fmax(value[end[e]], now->normal_force[k]);
+    }
+}
+
+// clang-format off
+static const field_row fields[] = {
+    {"speed", "speed", "@m/s", SCREE_COLOUR_SEQUENTIAL, take_speed, -1, 0, false},
+    {"velocity_x", "velocity along x", "@m/s", SCREE_COLOUR_DIVERGING, take_speed, 0, 0, false},
+    {"velocity_y", "velocity along y", "@m/s", SCREE_COLOUR_DIVERGING, take_speed, 1, 0, false},
+    {"velocity_z", "velocity along z", "@m/s", SCREE_COLOUR_DIVERGING, take_speed, 2, 3, false},
+    {"displacement", "displacement", "@m", SCREE_COLOUR_SEQUENTIAL, take_displacement, -1, 0, true},
+    {"displacement_x", "displacement along x", "@m", SCREE_COLOUR_DIVERGING, take_displacement, 0, 0, true},
+    {"displacement_y", "displacement along y", "@m", SCREE_COLOUR_DIVERGING, take_displacement, 1, 0, true},
+    {"displacement_z", "displacement along z", "@m", SCREE_COLOUR_DIVERGING, take_displacement, 2, 3, true},
+    {"rotation", "rotation, counter-clockwise positive", "degrees", SCREE_COLOUR_DIVERGING, take_rotation, -1, 2, true},
+    {"spin", "spin, counter-clockwise positive", "rad/s", SCREE_COLOUR_DIVERGING, take_spin, -1, 2, false},
+    {"spin", "spin, magnitude", "rad/s", SCREE_COLOUR_SEQUENTIAL, take_spin, -1, 3, false},
+    {"radius", "radius", "@m", SCREE_COLOUR_SEQUENTIAL, take_radius, -1, 0, false},
+    {"coordination", "contacts of each particle", "1", SCREE_COLOUR_SEQUENTIAL, take_coordination, -1, 0, false},
+    {"force", "largest normal force at each particle", "@N", SCREE_COLOUR_SEQUENTIAL, take_force, -1, 0, false},
+    {"birth", "time of birth", "s", SCREE_COLOUR_SEQUENTIAL, take_birth, -1, 0, false},
+    {"forces", "force network", "", SCREE_COLOUR_SEQUENTIAL, NULL, -1, 0, false},
+};
+// clang-format on
+enum { FIELDS = sizeof fields / sizeof *fields };
+
+void scree_plot_field_visit(void (*visit)(void *user, const char *name, const char *meaning), void *user)
+{
+    for (int k = 0; k < FIELDS; k++)
+        if (k == 0 || strcmp(fields[k].name, fields[k - 1].name) != 0) visit(user, fields[k].name, fields[k].meaning);
+}
+
+static scree_status find_field(const char *name, int dimension, const field_row **row, scree_error *error)
+{
+    const char *known[FIELDS];
+    size_t count = 0;
+    *row = NULL;
+    for (int k = 0; k < FIELDS; k++) {
+        if (fields[k].dimension != 0 && fields[k].dimension != dimension) continue;
+        known[count++] = fields[k].name;
+        if (strcmp(fields[k].name, name) == 0) *row = &fields[k];
+    }
+    if (*row) return SCREE_OK;
+    const char *nearest = scree_nearest(name, known, count);
+    char list[sizeof error->accepted];
+    size_t used = 0;
+    for (size_t k = 0; k < count && used < sizeof list; k++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "", known[k]);
+    return scree_plot_refuse(error, "--scene", nearest ? nearest : list, "scenes of this run have no field '%s'", name);
+}
+
+// ---- which snapshot ----------------------------------------------------------------------------------------------
+
+/// The snapshot nearest to a strain or a time; of several, the last.
+static size_t find_nearest(const scree_snapshot_mark *mark, size_t count, double wanted, bool is_time)
+{
+    size_t best = SIZE_MAX;
+    double least = INFINITY;
+    for (size_t k = 0; k < count; k++) {
+        double off = fabs((is_time ? mark[k].time : mark[k].axial_strain) - wanted);
+        if (!(off <= least)) continue;
+        least = off;
+        best = k;
+    }
+    return best;
+}
+
+static scree_status find_when(const scree_snapshot_mark *mark, size_t count, const char *when, size_t *which,
+                              scree_error *error)
+{
+    scree_error ignored = {0};
+    double value;
+    char *end;
+    *which = count - 1;
+    if (!when || strcmp(when, "end") == 0) return SCREE_OK;
+    *which = strcmp(when, "start") == 0 ? 0 : SIZE_MAX;
+    for (size_t k = 0; k < count && *which != 0; k++)
+        if (scree_snapshot_mark_is_of(&mark[k], when)) *which = k;
+    for (size_t k = 0; k < count && *when == '#'; k++)
+        if (isdigit((unsigned char)when[1]) && strtoll(when + 1, &end, 10) == mark[k].index && !*end) *which = k;
+    if (*which == SIZE_MAX && !scree_units_parse(when, "1", &value, &ignored))
+        *which = find_nearest(mark, count, value, false);
+    else if (*which == SIZE_MAX && !scree_units_parse(when, "s", &value, &ignored))
+        *which = find_nearest(mark, count, value, true);
+    if (*which != SIZE_MAX) return SCREE_OK;
+    return scree_plot_refuse(error, "--at", "start, end, #N, an axial strain, a time with its unit, or a stage",
+                             "the run has no snapshot of '%s'", when);
+}
+
+/// The first snapshot of the loading stage that was the last.
+static size_t find_start(const scree_snapshot_mark *mark, size_t count)
+{
+    size_t first = count;
+    while (first > 0 && !isfinite(mark[first - 1].axial_strain)) first--;
+    if (first == 0) return 0;
+    first--;
+    while (first > 0 && isfinite(mark[first - 1].axial_strain) &&
+           !scree_snapshot_begins_stage(mark[first - 1].stage, mark[first].stage, mark[first].axial_strain))
+        first--;
+    return first;
+}
+
+// ---- drawing -----------------------------------------------------------------------------------------------------
+
+typedef struct asked_scene {
+    const scree_plot_scene *scene;
+    scree_plot_run run; ///< folder and strains of the snapshots are there
+    scree_snapshot_mark *mark;
+    size_t which, start_at;
+    const field_row *row;
+    scree_snapshot start, now;
+    double *value;
+    char label[200];
+} asked_scene;
+
+static scree_status read_snapshots(asked_scene *asked, scree_error *error)
+{
+    scree_status status = scree_snapshot_read(asked->run.directory, asked->which, &asked->now, error);
+    if (!status) status = find_field(asked->scene->field, asked->now.dimension, &asked->row, error);
+    if (!status && asked->scene->section && (asked->now.dimension == 2 || !asked->row->values))
+        status = scree_plot_refuse(error, "--section", "a run of spheres and a field of bodies",
+                                   asked->now.dimension == 2 ? "discs cannot be cut%s" : "a cut has no contacts%s", "");
+    // What is compared with a later start is compared with the first snapshot.
+    asked->start_at = find_start(asked->mark, asked->run.snapshot_count);
+    if (asked->which < asked->start_at) asked->start_at = 0;
+    if (!status && asked->row->compares) {
+        scree_snapshot_destroy(&asked->now);
+        status = scree_plot_read_two(&asked->run, asked->start_at, asked->which, &asked->start, &asked->now, error);
+    }
+    return status;
+}
+
+/// Values in the unit that the label names.
+static scree_status fill(asked_scene *asked, scree_error *error)
+{
+    char pattern[160];
+    const field_row *row = asked->row;
+    if (!row->values) return SCREE_OK;
+    scree_status status = scree_allocate(&asked->value, asked->now.count, sizeof *asked->value, error);
+    if (status) return status;
+    row->values(&asked->start, &asked->now, row->axis, asked->value);
+    const char *since = !row->compares ? "" : asked->start_at > 0 ? " since the start of loading" : " since the start";
+    (void)snprintf(pattern, sizeof pattern, "%s%s (%s)", row->meaning, since, row->unit);
+    double factor = scree_plot_label(asked->label, sizeof asked->label, pattern,
+                                     scree_plot_largest(asked->value, asked->now.count));
+    for (size_t k = 0; k < asked->now.count; k++) asked->value[k] *= factor;
+    return SCREE_OK;
+}
+
+static scree_status draw(asked_scene *asked, const char *path, scree_error *error)
+{
+    const scree_snapshot *now = &asked->now;
+    char title[100];
+    (void)snprintf(title, sizeof title, "%c%.90s", toupper((unsigned char)asked->row->meaning[0]),
+                   asked->row->meaning + 1);
+    scree_scene scene = {.title = title,
+                         .field = asked->value,
+                         .field_name = asked->label,
+                         .map = asked->row->map,
+                         .force_network = !asked->row->values,
+                         .of_cell = now->periodic.directions == (1u << now->dimension) - 1,
+                         .plates = true};
+    if (now->dimension == 2) return scree_scene_draw(path, now, &scene, error);
+    return asked->scene->section ? scree_plot_section(path, now, &scene, error)
+                                 : scree_plot_space(path, now, &scene, error);
+}
+
+static scree_status open_run(asked_scene *asked, const char *directory, scree_error *error)
+{
+    size_t count = 0;
+    asked->run.directory = directory;
+    scree_status status = scree_snapshot_marks(directory, &asked->mark, &count, error);
+    if (!status) status = scree_allocate(&asked->run.strain, count, sizeof *asked->run.strain, error);
+    if (status) return status;
+    asked->run.snapshot_count = count;
+    for (size_t k = 0; k < count; k++) asked->run.strain[k] = asked->mark[k].axial_strain;
+    return find_when(asked->mark, count, asked->scene->at, &asked->which, error);
+}
+
+scree_status scree_plot_field(const char *directory, const scree_plot_scene *scene,
+                              void (*message)(void *user, const char *path), void *user, scree_error *error)
+{
+    scree_folder_lock taken;
+    asked_scene asked = {.scene = scene};
+    char path[PATH_MAX], said[PATH_MAX + 8];
+    scree_status status = scree_plot_lock(&taken, directory, error);
+    if (!status) status = open_run(&asked, directory, error);
+    if (!status) status = read_snapshots(&asked, error);
+    if (!status) status = scree_plot_keep_standing(&asked.run, asked.which, &asked.now, error);
+    if (!status) status = fill(&asked, error);
+    if (!status) status = scree_plot_make_folder(&asked.run, error);
+    if (!status) {
+        (void)snprintf(path, sizeof path, "%.*s/scene-%s%s-%06lld", PATH_MAX - 64, asked.run.figures, asked.row->name,
+                       scene->section ? "-section" : "", (long long)asked.now.index);
+        status = draw(&asked, path, error);
+    }
+    if (!status && message) {
+        (void)snprintf(said, sizeof said, "%s.svg", path);
+        message(user, said);
+    }
+    scree_snapshot_destroy(&asked.start);
+    scree_snapshot_destroy(&asked.now);
+    scree_release(&asked.mark);
+    scree_release(&asked.run.strain);
+    scree_release(&asked.value);
+    scree_folder_lock_release(&taken);
+    return status;
+}
