@@ -75,6 +75,7 @@ typedef struct scree_case_summary {
     double figures;                ///< s
     double rate;                   ///< particle-steps per second of the stepping, measured on this machine
     double memory;                 ///< bytes, peak
+    double tabor;                  ///< largest Tabor parameter of contacts of mean grains; NAN where none sticks
 } scree_case_summary;
 /// Takes some tenths of a second: the case is set going for a moment. Times that cannot be found so are NAN. Errors:
 /// SCREE_ERROR_INPUT, memory.

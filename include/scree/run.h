@@ -20,12 +20,14 @@ typedef struct scree_progress {
 } scree_progress;
 
 typedef struct scree_run_options {
-    const char *output;       ///< run directory
-    int threads;              ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
-                              ///< programs hold the cores and fewer are faster
-    bool force;               ///< write into a directory that holds another run (replaces it)
-    const char *from;         ///< scree_restart: number of the snapshot to go on from, or "latest"; NULL: a checkpoint
-    bool figures;             ///< draw figures at the end
+    const char *output; ///< run directory
+    int threads;        ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
+                        ///< programs hold the cores and fewer are faster
+    bool force;         ///< write into a directory that holds another run (replaces it)
+    const char *from;   ///< scree_restart: number of the snapshot to go on from, or "latest"; NULL: a checkpoint
+    const char *after;  ///< scree_run: folder of a run whose first stages are those of the case: it goes on behind
+                        ///< the last of them that has ended there, with its rows and snapshots; NULL: from the begin
+    bool figures;       ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
     void (*progress)(void *user, const scree_progress *progress); ///< about twice a second; may be NULL
     void (*message)(void *user, int level, const char *line);     ///< lines of log.txt (level 0 information, 1 warning,

@@ -88,12 +88,15 @@ typedef struct scree_bisection {
     double tolerance;       ///< 1, relative: how near the two ends are brought
     const char *measure;    ///< a result of a run, a number
     const char *curve;      ///< column of series.csv that is drawn over time for runs near the limit; NULL: none
-    double below, above;    ///< in SI units; NAN: no such bound, but of one of them
+    double below, above;    ///< in SI units; NAN: no such bound
+    double target;          ///< what the result has to be, in place of bounds; NAN: bounds
 } scree_bisection;
 
 typedef struct scree_bisection_result {
     double limit, stands, fails; ///< SI: between the two ends; at which a run stands, at which it does not
     int runs;
+    int nearest;            ///< number of the run whose result is nearest to the target
+    double found, measured; ///< SI: value of the key in that run, and its result
 } scree_bisection_result;
 
 /// Finds the limit by bisection: runs as processes of their own, one after the other, in options->output. A search that

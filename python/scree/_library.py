@@ -40,7 +40,7 @@ class CaseSummaryStruct(Structure):
                 ("largest_step", c_uint64), ("phi", c_double), ("psi", c_double), ("inertial_number", c_double),
                 ("mean_radius", c_double), ("thickness", c_double), ("reference_velocity", c_double),
                 ("steps", c_double), ("seconds", c_double), ("stepping", c_double), ("output", c_double),
-                ("figures", c_double), ("rate", c_double), ("memory", c_double)]
+                ("figures", c_double), ("rate", c_double), ("memory", c_double), ("tabor", c_double)]
 
 
 class ContactPoint(Structure):
@@ -82,8 +82,9 @@ ATTRIBUTE = CFUNCTYPE(None, c_void_p, c_char_p, c_double, c_char_p)
 
 
 class RunOptions(Structure):
-    _fields_ = [("output", c_char_p), ("threads", c_int), ("force", c_bool), ("start", c_char_p), ("figures", c_bool),
-                ("stop", POINTER(c_int)), ("progress", PROGRESS), ("message", MESSAGE), ("user", c_void_p)]
+    _fields_ = [("output", c_char_p), ("threads", c_int), ("force", c_bool), ("start", c_char_p), ("after", c_char_p),
+                ("figures", c_bool), ("stop", POINTER(c_int)), ("progress", PROGRESS), ("message", MESSAGE),
+                ("user", c_void_p)]
 
 
 class SweepReadOptions(Structure):
@@ -99,8 +100,9 @@ class SweepOptions(Structure):
 
 class MeasureOptions(Structure):
     _fields_ = [("fields", c_char_p), ("cuts", c_char_p), ("element", c_char_p), ("grid", c_char_p),
-                ("kernel", c_char_p), ("at", c_char_p), ("start", c_char_p), ("axis", c_char_p), ("points", c_long),
-                ("threads", c_int), ("output", c_char_p), ("no_figures", c_bool), ("message", LINE), ("user", c_void_p)]
+                ("kernel", c_char_p), ("at", c_char_p), ("start", c_char_p), ("fit", c_char_p), ("axis", c_char_p),
+                ("points", c_long), ("threads", c_int), ("output", c_char_p), ("no_figures", c_bool),
+                ("message", LINE), ("user", c_void_p)]
 
 
 class TheoryValue(Structure):

@@ -45,6 +45,7 @@ class CaseSummary:
     figures: float
     rate: float  #: particle-steps per second
     memory: float  #: bytes
+    tabor: float  #: largest Tabor parameter of contacts of mean grains
 
 
 class CheckedCase:
@@ -186,11 +187,12 @@ class Case:
         return lines
 
     def run(self, output: Folder, *, threads: int = 0, force: bool = False, figures: bool = True,
-            message: Any = None) -> Any:
+            after: Optional[Folder] = None, message: Any = None) -> Any:
         """Runs the case into a new folder, as `scree run` does, and returns it as a `Run`.
 
         threads  at most; 0: as many as pay
         force    write into a folder that holds another run
+        after    folder of a run whose first stages are those of the case: it goes on behind them
         message  function of a level (0 information, 1 warning, 2 error) and a line of the log
 
         Ctrl-C stops after a checkpoint (Interrupted); `Run(output).restart()` goes on from it. Raises GuardError,
@@ -200,6 +202,8 @@ class Case:
         checked = self.checked()
         with Interruption() as interruption:
             options, held = run_options(output, threads, force, figures, message, interruption)
+            if after is not None:
+                options.after = encode(after)
             call(lib.scree_run, checked.handle, byref(options))
         del held
         return Run(output)

@@ -27,12 +27,12 @@ class Measured:
 def runs(of: "Union[Folder, Run, Sequence[Union[Folder, Run]]]", *, fields: Optional[str] = None,
          cuts: Optional[str] = None, element: Optional[str] = None, grid: Optional[str] = None,
          kernel: Optional[str] = None, at: Optional[str] = None, start: Optional[str] = None,
-         axis: Optional[str] = None, points: int = 0, threads: int = 0, output: Optional[Folder] = None,
-         figures: bool = False) -> Measured:
+         fit: Optional[str] = None, axis: Optional[str] = None, points: int = 0, threads: int = 0,
+         output: Optional[Folder] = None, figures: bool = False) -> Measured:
     """Measures runs: one, or several as an ensemble with means and bootstrap bands. Options are those of
     `scree measure --help`, texts with units: fields "stress,fabric", cuts "0,0.25,0.5", element "30 mm", grid "100x50",
-    kernel "15 mm", at "end", "#12", "10 %" or the name of a stage; `start` is its --from. Raises InputError with the
-    option as key, FileError."""
+    kernel "15 mm", at "end", "#12", "10 %" or the name of a stage; `start` is its --from, fit "ife,osl".
+    Raises InputError with the option as key, FileError."""
     several = of if isinstance(of, (list, tuple)) else [of]
     folders = [Path(one.folder if isinstance(one, Run) else one) for one in several]
     names = (c_char_p * len(folders))(*(encode(folder) for folder in folders))
@@ -40,7 +40,7 @@ def runs(of: "Union[Folder, Run, Sequence[Union[Folder, Run]]]", *, fields: Opti
     lines: "list[str]" = []
     tell: Any = LINE(lambda user, line: lines.append(text(line)))
     given = {"fields": fields, "cuts": cuts, "element": element, "grid": grid, "kernel": kernel, "at": at,
-             "start": start, "axis": axis}
+             "start": start, "fit": fit, "axis": axis}
     options = MeasureOptions(points=points, threads=threads, output=encode(where), no_figures=not figures, message=tell,
                              **{key: value.encode() for key, value in given.items() if value is not None})
     call(lib.scree_measure, names, len(folders), byref(options))

@@ -2,6 +2,7 @@
 #include "average/element.h"
 
 #include "shape/polygon.h"
+#include "shape/rounding.h"
 
 #include <math.h>
 #include <string.h>
@@ -186,6 +187,31 @@ double scree_average_sphere_part(double radius, const double low[3], const doubl
 
 // ---- grains ------------------------------------------------------------------------------------------------------
 
+/// What the rounding of a polygon adds to its core in a rectangle: a strip on each edge, and a sector at each corner,
+/// as a fan of triangles with the area of the sector.
+static double rounding_part(int count, const double (*corner)[2], double rounding, const double low[2],
+                            const double high[2])
+{
+    enum { ARC = 9 };
+    double outline[SCREE_POLYGON_CORNERS * ARC][2], area = 0;
+    scree_rounding_trace(count, corner, rounding, ARC, outline);
+    for (int k = 0; k < count; k++) {
+        const int next = k + 1 < count ? k + 1 : 0;
+        const double *v = corner[k], *from = outline[k * ARC], *to = outline[k * ARC + ARC - 1];
+        const double *on = outline[next * ARC];
+        const double strip[4][2] = {{v[0], v[1]}, {to[0], to[1]}, {on[0], on[1]}, {corner[next][0], corner[next][1]}};
+        double fan[ARC + 1][2] = {{v[0], v[1]}};
+        const double turn = atan2((from[0] - v[0]) * (to[1] - v[1]) - (from[1] - v[1]) * (to[0] - v[0]),
+                                  (from[0] - v[0]) * (to[0] - v[0]) + (from[1] - v[1]) * (to[1] - v[1]));
+        const double chord = turn / (ARC - 1), scale = sqrt(chord / sin(chord));
+        for (int i = 0; i < ARC; i++)
+            for (int j = 0; j < 2; j++) fan[i + 1][j] = v[j] + scale * (outline[k * ARC + i][j] - v[j]);
+        area += scree_average_polygon_part(4, strip, low[0], high[0], low[1], high[1]);
+        area += scree_average_polygon_part(ARC + 1, (const double(*)[2])fan, low[0], high[0], low[1], high[1]);
+    }
+    return area;
+}
+
 double scree_average_part(const scree_average_sample *sample, const scree_average_grain *grain,
                           const scree_average_element *element)
 {
@@ -202,7 +228,9 @@ double scree_average_part(const scree_average_sample *sample, const scree_averag
     if (grain->corner_count == 0)
         return scree_average_disc_part(grain->radius, low[0], high[0], low[1], high[1]) / grain->volume;
     scree_average_outline(sample, grain, placed);
-    return scree_average_polygon_part((int)grain->corner_count, (const double(*)[2])placed, low[0], high[0], low[1],
-                                      high[1]) /
-           grain->volume;
+    const double(*corner)[2] = (const double(*)[2])placed;
+    const int count = (int)grain->corner_count;
+    double area = scree_average_polygon_part(count, corner, low[0], high[0], low[1], high[1]);
+    if (grain->rounding > 0) area += rounding_part(count, corner, grain->rounding, low, high);
+    return area / grain->volume;
 }

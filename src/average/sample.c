@@ -4,6 +4,7 @@
 #include "average/tensor.h"
 #include "integrate/integrate.h"
 #include "shape/polygons.h"
+#include "shape/rounding.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -41,6 +42,7 @@ static void fill_grain(const scree_model *model, const scree_state *state, size_
     if (!polygons || !polygons->of) return;
     grain->first_corner = polygons->of[row].first;
     grain->corner_count = polygons->of[row].count;
+    grain->rounding = scree_rounding_of_row(polygons, row);
 }
 
 static void fill_contact(const scree_contact *from, scree_average_contact *to)
@@ -105,7 +107,10 @@ static void find_form(const scree_average_sample *sample, const scree_average_gr
     }
     double placed[SCREE_POLYGON_CORNERS][2], value[3], direction[9];
     scree_average_outline(sample, grain, placed);
-    const scree_polygon_measures m = scree_polygon_measure((int)grain->corner_count, (const double(*)[2])placed);
+    const int count = (int)grain->corner_count;
+    const double(*corner)[2] = (const double(*)[2])placed;
+    const scree_polygon_measures m = grain->rounding > 0 ? scree_rounding_measure(count, corner, grain->rounding)
+                                                         : scree_polygon_measure(count, corner);
     own->inertia[0] = m.moment[0];
     own->inertia[4] = m.moment[1];
     own->inertia[1] = own->inertia[3] = -m.moment[2];

@@ -34,6 +34,7 @@ typedef struct scree_average_grain {
     uint32_t id;
     uint32_t body;                       ///< its own place; of an image that of its body
     uint32_t first_corner, corner_count; ///< of its outline in the pool; 0: round
+    double rounding;                     ///< m, by which its outline lies outside of these corners
     bool counted;                        ///< a grain
 } scree_average_grain;                   // images of a periodic sample stand behind the bodies
 
@@ -99,7 +100,8 @@ scree_status scree_average_sample_repeat(scree_average_sample *sample, double ma
                                          scree_error *error) SCREE_MUST_USE;
 void scree_average_sample_destroy(scree_average_sample *sample);
 
-/// The outline of a polygon as it lies [m], relative to its centre; `placed` holds corner_count.
+/// The corners of a polygon as it lies [m], relative to its centre, of its core where they are rounded; `placed` holds
+/// corner_count.
 void scree_average_outline(const scree_average_sample *sample, const scree_average_grain *grain, double (*placed)[2]);
 
 /// Lever of one end of a contact (0: of the first) [m]: from the centre to the point.

@@ -26,6 +26,25 @@ static double away(const scree_average_surface *s, int axis, size_t k, double pl
     return s->origin[axis] + ((double)k + 0.5) * s->width - place;
 }
 
+/// The same with what the rounding of a polygon adds: its outer edges, and discs at its corners.
+static void widen_chord(int count, const double (*corner)[2], double rounding, double dx, double chord[2])
+{
+    for (int k = 0; k < count; k++) {
+        const double *a = corner[k], *b = corner[k + 1 < count ? k + 1 : 0];
+        const double square = rounding * rounding - (dx - a[0]) * (dx - a[0]), length = hypot(b[0] - a[0], b[1] - a[1]);
+        const double out[2] = {rounding * (b[1] - a[1]) / length, rounding * (a[0] - b[0]) / length};
+        if (square >= 0) {
+            chord[0] = fmin(chord[0], a[1] - sqrt(square));
+            chord[1] = fmax(chord[1], a[1] + sqrt(square));
+        }
+        const double from = a[0] + out[0] - dx, to = b[0] + out[0] - dx;
+        if (from * to > 0 || from == to) continue;
+        const double y = a[1] + out[1] - from / (to - from) * (b[1] - a[1]);
+        chord[0] = fmin(chord[0], y);
+        chord[1] = fmax(chord[1], y);
+    }
+}
+
 /// The vertical extent of a grain at (dx, dy) from its centre, relative to that; false: it does not reach there.
 static bool find_chord(const scree_average_sample *sample, const scree_average_grain *grain, double dx, double dy,
                        double chord[2])
@@ -45,6 +64,8 @@ static bool find_chord(const scree_average_sample *sample, const scree_average_g
         chord[0] = fmin(chord[0], y);
         chord[1] = fmax(chord[1], y);
     }
+    if (grain->rounding > 0)
+        widen_chord((int)grain->corner_count, (const double(*)[2])placed, grain->rounding, dx, chord);
     return chord[0] <= chord[1];
 }
 

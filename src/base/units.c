@@ -41,6 +41,7 @@ static const quantity quantities[] = {
     {"N/m", "a stiffness", "10 N/mm"},
     {"Pa s", "a viscosity", "1e9 Pa s"},
     {"J", "an energy", "3 J"},
+    {"J/m2", "a surface energy", "0.05 J/m2"},
     {"W", "a power", "3 W"},
     {"m2", "an area", "2 mm2"},
     {"m3", "a volume", "2 mm3"},

@@ -25,6 +25,11 @@ scree_status scree_case_reread(const char *path, const scree_former_key *former,
 
 /// Whether two cases mean the same: equal values of all keys that they use, however they are written.
 bool scree_case_same(const scree_case *one, const scree_case *other);
+enum { SCREE_CASE_PATH = sizeof((scree_error *)0)->field };
+/// How many stages at the begin of two cases are the same, so that a sample is the same when the last of them ends: 0
+/// where anything else than stages, name, title, output and guards differs. `where`: path of the first key that
+/// differs, of the stages the first behind those; empty: there is none.
+int64_t scree_case_common_stages(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH]);
 /// FNV-1a (Fowler, Noll, Vo) of the values of the resolved case: a checkpoint belongs to one case. Limits that only
 /// stop a run (guard, time_limit) and comments are left out, so that a run goes on when they have been changed. Errors:
 /// memory.

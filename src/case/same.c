@@ -1,10 +1,11 @@
 /// Whether two cases mean the same: the values of all keys that they use, as the schema reads them. How they are
-/// written (units, order, comments, defaults left out) does not count.
+/// written (units, order, comments, defaults left out) does not count. The path of the first key that differs is told.
 #include "base/schedule.h"
 #include "case/case.h"
 #include "case/check.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /// A section of a case: what is written, and what it was read into.
@@ -67,25 +68,51 @@ static const char *array_of(const scree_key *key, const part *p)
     return array;
 }
 
-static bool same_section(const scree_section *section, const part *one, const part *other);
+/// Path of what differs, put together from its end. NULL where nobody asks.
+typedef char path[SCREE_CASE_PATH];
 
-static bool same_lists(const scree_key *key, const part *one, const part *other)
+static bool differs(path *where, const char *name)
 {
-    int64_t count = count_of(key, one);
-    const scree_node *a = scree_node_find(one->mapping, key->name), *b = scree_node_find(other->mapping, key->name);
-    if (count != count_of(key, other)) return false;
-    for (int64_t i = 0; i < count; i++) {
-        size_t at = (size_t)i * key->element_size;
-        part first = {one->root, scree_node_at(a, (size_t)i), array_of(key, one) + at};
-        part second = {other->root, scree_node_at(b, (size_t)i), array_of(key, other) + at};
-        const scree_section *section = scree_element_section(key, first.mapping);
-        if (!section || section != scree_element_section(key, second.mapping)) return false;
-        if (!same_section(section, &first, &second)) return false;
-    }
-    return true;
+    path behind;
+    if (!where) return false;
+    (void)snprintf(behind, sizeof behind, "%s", *where);
+    (void)snprintf(*where, sizeof *where, behind[0] ? "%s.%s" : "%s", name, behind);
+    return false;
 }
 
-static bool same_key(const scree_key *key, const part *one, const part *other)
+static bool same_section(const scree_section *section, const part *one, const part *other, path *where);
+
+static part element(const scree_key *key, const part *p, int64_t i)
+{
+    const scree_node *list = scree_node_find(p->mapping, key->name);
+    return (part){p->root, scree_node_at(list, (size_t)i), array_of(key, p) + (size_t)i * key->element_size};
+}
+
+/// How many elements at the begin of two lists are the same; `where` is told how the next one differs.
+static int64_t same_elements(const scree_key *key, const part *one, const part *other, path *where)
+{
+    const int64_t count = count_of(key, one) < count_of(key, other) ? count_of(key, one) : count_of(key, other);
+    for (int64_t i = 0; i < count; i++) {
+        const part first = element(key, one, i), second = element(key, other, i);
+        const scree_section *section = scree_element_section(key, first.mapping);
+        if (section && section == scree_element_section(key, second.mapping) &&
+            same_section(section, &first, &second, where))
+            continue;
+        char number[24];
+        (void)snprintf(number, sizeof number, "%lld", (long long)i);
+        (void)differs(where, number);
+        return i;
+    }
+    return count;
+}
+
+static bool same_lists(const scree_key *key, const part *one, const part *other, path *where)
+{
+    const int64_t count = count_of(key, one);
+    return same_elements(key, one, other, where) == count && count == count_of(key, other);
+}
+
+static bool same_key(const scree_key *key, const part *one, const part *other, path *where)
 {
     const char *a = scree_key_member(key, one->base), *b = scree_key_member(key, other->base);
     part first = {one->root, scree_node_find(one->mapping, key->name), a};
@@ -112,9 +139,9 @@ static bool same_key(const scree_key *key, const part *one, const part *other)
     case SCREE_KEY_WORD:
         return same_texts(a, b);
     case SCREE_KEY_SECTION:
-        return same_section(key->sections, &first, &second);
+        return same_section(key->sections, &first, &second, where);
     case SCREE_KEY_LIST:
-        return same_lists(key, one, other);
+        return same_lists(key, one, other, where);
     case SCREE_KEY_VALUES:
         return same_nodes(first.mapping, second.mapping);
     case SCREE_KEY_PATHS:
@@ -124,20 +151,60 @@ static bool same_key(const scree_key *key, const part *one, const part *other)
     return true;
 }
 
-static bool same_section(const scree_section *section, const part *one, const part *other)
+/// Whether both use a key, with one value, or neither does.
+static bool same_use(const scree_section *section, const scree_key *key, const part *one, const part *other,
+                     path *where)
 {
-    for (size_t i = 0; i < section->count; i++) {
-        const scree_key *key = &section->keys[i];
-        bool used = scree_key_usage(one->root, section, one->mapping, key).use == SCREE_USED;
-        if (used != (scree_key_usage(other->root, section, other->mapping, key).use == SCREE_USED)) return false;
-        if (used && !same_key(key, one, other)) return false;
-    }
+    const bool used = scree_key_usage(one->root, section, one->mapping, key).use == SCREE_USED;
+    if (used != (scree_key_usage(other->root, section, other->mapping, key).use == SCREE_USED)) return false;
+    return !used || same_key(key, one, other, where);
+}
+
+static bool same_section(const scree_section *section, const part *one, const part *other, path *where)
+{
+    for (size_t i = 0; i < section->count; i++)
+        if (!same_use(section, &section->keys[i], one, other, where)) return differs(where, section->keys[i].name);
     return true;
+}
+
+static part whole(const scree_case *c)
+{
+    return (part){scree_case_root(c), scree_case_root(c), (const char *)&c->config};
 }
 
 bool scree_case_same(const scree_case *one, const scree_case *other)
 {
-    part first = {scree_case_root(one), scree_case_root(one), (const char *)&one->config};
-    part second = {scree_case_root(other), scree_case_root(other), (const char *)&other->config};
-    return same_section(scree_schema(), &first, &second);
+    const part first = whole(one), second = whole(other);
+    return same_section(scree_schema(), &first, &second, NULL);
+}
+
+/// What a sample does not depend on.
+static bool is_free(const scree_key *key)
+{
+    static const char *const names[] = {"name", "title", "output", "guard"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp(key->name, names[k]) == 0) return true;
+    return false;
+}
+
+int64_t scree_case_common_stages(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH])
+{
+    const part first = whole(one), second = whole(other);
+    const scree_section *schema = scree_schema();
+    path stage = "", *there = (path *)where;
+    int64_t common = 0;
+    where[0] = 0;
+    for (size_t i = 0; i < schema->count; i++) {
+        const scree_key *key = &schema->keys[i];
+        if (is_free(key)) continue;
+        if (strcmp(key->name, "stages") == 0) {
+            common = same_elements(key, &first, &second, &stage);
+            if (stage[0]) (void)differs(&stage, key->name);
+        } else if (!same_use(schema, key, &first, &second, there)) {
+            (void)differs(there, key->name);
+            return 0;
+        }
+    }
+    memcpy(where, stage, sizeof stage);
+    return common;
 }

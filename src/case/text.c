@@ -48,7 +48,8 @@ bool scree_text_check(scree_reader *reader, const char *text, size_t length, scr
         else if (is_control(bytes + at))
             wrong = "this is not plain text: a control character is here";
         else if (at - line_start > LONGEST_LINE)
-            wrong = "this line has more than 4096 bytes: not a case file";
+            wrong = "this line has more than 4096 bytes: not a case file; a long list may go over several lines, or "
+                    "into a .csv file";
         if (wrong) {
             if (place.line == 0) here.line = here.column = 0;
             scree_problem_add(reader, here, NULL, NULL, "YAML text", "%s", wrong);

@@ -18,7 +18,7 @@ static scree_status take(const scree_command *command, const char *name, const c
 
 static scree_status read_bisection(const scree_command *command, scree_bisection *what, scree_error *error)
 {
-    *what = (scree_bisection){.tolerance = 0.001, .below = NAN, .above = NAN};
+    *what = (scree_bisection){.tolerance = 0.001, .below = NAN, .above = NAN, .target = NAN};
     scree_status status = take(command, "key", &what->key, error);
     if (!status) status = take(command, "from", &what->between[0], error);
     if (!status) status = take(command, "to", &what->between[1], error);
@@ -27,6 +27,7 @@ static scree_status read_bisection(const scree_command *command, scree_bisection
     if (!status) status = scree_command_real(command, "tolerance", &what->tolerance, error);
     if (!status) status = scree_command_real(command, "below", &what->below, error);
     if (!status) status = scree_command_real(command, "above", &what->above, error);
+    if (!status) status = scree_command_real(command, "target", &what->target, error);
     return status;
 }
 
@@ -47,6 +48,11 @@ scree_status scree_verb_bisect(const scree_command *command)
         scree_progress_end(&call.display);
         if (status)
             (void)scree_terminal_error("bisect", &error);
+        else if (!isnan(what.target))
+            printf(
+                "%s: %s is %.6g at %.9g, after %d runs; a test begins there by scree run CASE --after %s/runs/%02d\n",
+                what.key, what.measure, result.measured, result.found, result.runs, call.options.output,
+                result.nearest);
         else
             printf("%s: stands at %.9g, not at %.9g, after %d runs: limit %.6g\n", what.key, result.stands,
                    result.fails, result.runs, result.limit);

@@ -60,6 +60,7 @@ static void print_summary(const scree_case_summary *summary)
     print_coefficient("inertial number", summary->inertial_number, "of the grains at the imposed rate");
     print_coefficient("psi", summary->psi, "size coefficient (grain against sample)");
     if (!isnan(summary->reference_velocity)) print_quantity("reference velocity", summary->reference_velocity, "m/s");
+    print_coefficient("Tabor parameter", summary->tabor, "of two mean grains: JKR above 5, DMT below 0.1");
     scree_human_quantity(text, sizeof text, summary->step, "s");
     scree_human_quantity(part, sizeof part, summary->critical_step, "s");
     (void)snprintf(more, sizeof more, "%s%.2g of the critical step of %s",

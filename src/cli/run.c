@@ -11,7 +11,7 @@ enum { MOST_THREADS = 4096 };
 /// A restart continues the run as it was.
 static scree_status check_combination(const scree_command *command, scree_error *error)
 {
-    static const char *const changes[] = {"set", "quick", "output", "force"};
+    static const char *const changes[] = {"set", "quick", "output", "force", "after"};
     bool restart = scree_command_has(command, "restart");
     if (!restart && command->argument_count == 0)
         return scree_command_refuse(error, "CASE", "a case file, the name of a built-in case, or --restart DIR",
@@ -55,6 +55,7 @@ scree_status scree_verb_run(const scree_command *command)
     options.threads = (int)threads;
     const char *restart = scree_command_value(command, "restart"), *output = scree_command_value(command, "output");
     options.from = scree_command_value(command, "from");
+    options.after = scree_command_value(command, "after");
     options.output = restart ? restart : output ? output : "out";
     scree_case *c = NULL;
     if (!restart) status = scree_case_argument_read(command, command->argument[0], &c);

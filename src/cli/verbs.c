@@ -230,22 +230,29 @@ static const scree_verb run_verbs[] = {
                     .value = "SNAPSHOT",
                     .meaning = "with --restart: continue from this snapshot, a number or `latest`, and drop what came "
                                "after it"},
+                   {.name = "after",
+                    .value = "DIR",
+                    .meaning = "begin behind the last stage that the case has in common with the run in DIR and that "
+                               "has ended there, with its rows and snapshots",
+                    .kind = SCREE_VALUE_FOLDER},
                    OPTION_QUIET},
         .example = {{"scree run biaxial --quick -o out", "a built-in case in a minute"},
                     {"scree run my.yaml -o out --set stages.compress.rate=1e-2 --threads 2", "one value changed"},
-                    {"scree run --restart out", "continue after an interrupt"}},
+                    {"scree run --restart out", "continue after an interrupt"},
+                    {"scree run longer.yaml --after out -o longer", "the same case with stages added or changed"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
         .function = scree_verb_run,
     },
     {
         .name = "bisect",
-        .meaning = "find the limit of a number of a case by runs",
+        .meaning = "find the limit of a number of a case by runs, or the value that gives a result",
         .text =
             "Runs a case with values of one of its numbers until it is known between which two of them runs cease to "
             "stand: by bisection, each run a process of its own. A run stands if it comes to its end and its result "
             "`--measure` is `--below` one limit, and `--above` another; one that a guard stops does not. Limits of "
-            "stability stop "
-            "none of them beforehand (`guard.stability: warn`).\n\n"
+            "stability stop none of them beforehand (`guard.stability: warn`). With `--target` it searches for the "
+            "value "
+            "at which the result is that: a friction of confinement for a solid fraction, say.\n\n"
             "The folder has the runs (`runs/`), a row of each (`bisection.csv`), and in `summary.json` the results of "
             "the last run that stood with `limit`, `limit_stands`, `limit_fails`, `limit_runs` (SI units). Called "
             "again it goes on with what is there. A sweep does it at every point of its grid (`bisect:` in its file).",
@@ -269,6 +276,9 @@ static const scree_verb run_verbs[] = {
              {.name = "measure", .value = "RESULT", .meaning = "result of a run by which it stands"},
              {.name = "below", .value = "NUMBER", .meaning = "the result of a run that stands is below this (SI)"},
              {.name = "above", .value = "NUMBER", .meaning = "the result of a run that stands is above this (SI)"},
+             {.name = "target",
+              .value = "NUMBER",
+              .meaning = "what the result has to be (SI), within the tolerance; in place of --below and --above"},
              {.name = "curve", .value = "COLUMN", .meaning = "draw this column of the runs near the limit over time"},
              OPTION_MEMBER_THREADS,
              OPTION_NO_FIGURES,
@@ -276,7 +286,10 @@ static const scree_verb run_verbs[] = {
              OPTION_QUIET},
         .example = {{"scree bisect ddem-stability -o step --key integrator.step --from 200ns --to 400ns "
                      "--measure kinetic --below 1e-3 --above=-1e-3",
-                     "the largest step that stands"}},
+                     "the largest step that stands"},
+                    {"scree bisect confine.yaml -o find --key stages.confine.friction --from 0.01 --to 0.5 --measure "
+                     "solid_fraction --target 0.83",
+                     "friction that confines to a solid fraction; scree run --after goes on"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO, SCREE_INTERRUPTED},
         .function = scree_verb_bisect,
     },
@@ -409,50 +422,51 @@ static const scree_verb run_verbs[] = {
             "`dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md lists the columns, "
             "docs/theory/averages.md has the definitions. Stresses are tension positive, pressures the opposite.",
         .argument = {{"RUN", "folder of a finished run; several are an ensemble", SCREE_VALUE_FOLDER, false, true}},
-        .option = {{.name = "fields",
-                    .value = "NAME,...",
-                    .meaning = "density, coordination, stress, fabric, inertia, velocity, elastic (with --from)",
-                    .preset = "density,coordination,stress,fabric"},
-                   {.name = "cuts",
-                    .value = "N|HEIGHTS",
-                    .meaning = "number of cuts, or their relative heights with commas, 0 lowest",
-                    .preset = "5"},
-                   {.name = "element",
-                    .value = "GRAINS|LENGTH",
-                    .meaning = "grains in an element at the mean density, or its side",
-                    .preset = "150, a tenth of a sample below 1500"},
-                   {.name = "points", .value = "N", .meaning = "places along a cut, odd", .preset = "41"},
-                   {.name = "fit",
-                    .value = "NAMES",
-                    .meaning = "theories fitted to the mean stresses of three piles or more, with commas: ife, bcc, "
-                               "fpa, osl, oriented, wedge"},
-                   {.name = "axis",
-                    .value = "mass|apex|X",
-                    .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a place",
-                    .preset = "mass"},
-                   {.name = "grid",
-                    .value = "NXxNY[xNZ]",
-                    .meaning = "a map of so many elements, which may overlap; in 3D of two numbers the second is along "
-                               "z, in the middle of y"},
-                   {.name = "kernel",
-                    .value = "WIDTH",
-                    .meaning = "smooth fields, at the points of --grid or 100x50 (50x50x50): radius of the support of "
-                               "the kernel in mean diameters, or a length"},
-                   {.name = "at",
-                    .value = "WHEN",
-                    .meaning =
-                        "start, end, #N (snapshot N), a STAGE (its last one), an axial strain; mean:STAGE or mean:N, "
-                        "the mean over its snapshots, or over the last N",
-                    .preset = "end"},
-                   {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
-                   {.name = "threads", .letter = 't', .value = "N", .meaning = "for --kernel", .preset = "1"},
-                   {.name = "output",
-                    .letter = 'o',
-                    .value = "DIR",
-                    .meaning = "folder of tables and figures",
-                    .preset = "RUN/measure, of several runs measure",
-                    .kind = SCREE_VALUE_FOLDER},
-                   OPTION_NO_FIGURES},
+        .option =
+            {{.name = "fields",
+              .value = "NAME,...",
+              .meaning = "density, coordination, stress, fabric, inertia, velocity, elastic (with --from)",
+              .preset = "density,coordination,stress,fabric"},
+             {.name = "cuts",
+              .value = "N|HEIGHTS",
+              .meaning = "number of cuts, or their relative heights with commas, 0 lowest",
+              .preset = "5"},
+             {.name = "element",
+              .value = "GRAINS|LENGTH",
+              .meaning = "grains in an element at the mean density, or its side",
+              .preset = "150, a tenth of a sample below 1500"},
+             {.name = "points", .value = "N", .meaning = "places along a cut, odd", .preset = "41"},
+             {.name = "fit",
+              .value = "NAMES",
+              .meaning = "theories fitted to the mean stresses of three piles or more, with commas: ife, bcc, "
+                         "fpa, osl, oriented, wedge"},
+             {.name = "axis",
+              .value = "mass|apex|X",
+              .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a place",
+              .preset =
+                  "mass"},
+             {.name = "grid",
+              .value = "NXxNY[xNZ]",
+              .meaning = "a map of so many elements, which may overlap; in 3D of two numbers the second is along "
+                         "z, in the middle of y"},
+             {.name = "kernel",
+              .value = "WIDTH",
+              .meaning = "smooth fields, at the points of --grid or 100x50 (50x50x50): radius of the support of "
+                         "the kernel in mean diameters, or a length"},
+             {.name = "at",
+              .value = "WHEN",
+              .meaning = "start, end, #N (snapshot N), a STAGE (its last one), an axial strain; mean:STAGE or mean:N, "
+                         "the mean over its snapshots, or over the last N",
+              .preset = "end"},
+             {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
+             {.name = "threads", .letter = 't', .value = "N", .meaning = "for --kernel", .preset = "1"},
+             {.name = "output",
+              .letter = 'o',
+              .value = "DIR",
+              .meaning = "folder of tables and figures",
+              .preset = "RUN/measure, of several runs measure",
+              .kind = SCREE_VALUE_FOLDER},
+             OPTION_NO_FIGURES},
         .example = {{"scree measure out --fields stress,fabric,density --cuts 5 --element 150", "cuts through a pile"},
                     {"scree measure out --grid 100x50 --kernel 3", "maps of elements and of smooth fields"},
                     {"scree measure piles/* -o ensemble", "several piles, with bands and the dip"},

@@ -5,7 +5,8 @@
 ///   d = d_0 + 2 v dt + 2^-32 R_max                                     (the last term: round-off of positions at rest)
 /// from which each law bounds its forces and energies (its descriptor's file); torques stay below R_max f.
 /// With no contact in the last evaluation, which may be the first of the run, d_0 is the guard's limit instead.
-/// Each bound is doubled, so round-off cannot matter.
+/// Each bound is doubled, so round-off cannot matter. Where overlaps have a gain (kinematics.h), they grow by that many
+/// times the way, and forces are that many times those of the law.
 ///
 /// Cost: materials (materials + walls), a few powers.
 #include "contact/bounds.h"
@@ -95,7 +96,8 @@ static scree_law_bounds bounds_of_held(const scree_model *model, const scree_sta
 
 scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state *state)
 {
-    double relative = 2 * largest_speed(state), radius = scree_model_largest_radius(model);
+    const double gain = fmax(1, model->largest_gain);
+    double relative = 2 * gain * largest_speed(state), radius = scree_model_largest_radius(model);
     double before = state->largest_overlap > 0 ? state->largest_overlap : contact_overlap_limit(model) * radius;
     const scree_law_extent extent = {.speed = relative,
                                      .overlap =
@@ -106,7 +108,8 @@ scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state 
     scree_law_bounds once = bounds_under(model, 0, &extent);
     for (int k = 1; k < scree_model_law_count(model); k++) once = larger(once, bounds_under(model, k, &extent));
     if (scree_persistent(state)->count > 0) once = larger(once, bounds_of_held(model, state));
-    return (scree_law_bounds){.force = 2 * once.force, .damping = 2 * once.damping, .friction = 2 * once.friction};
+    return (scree_law_bounds){
+        .force = 2 * gain * once.force, .damping = 2 * once.damping, .friction = 2 * once.friction};
 }
 
 int contact_energy_bits(int dimension, size_t count, size_t held)

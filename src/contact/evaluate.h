@@ -105,13 +105,27 @@ SCREE_INLINE void contact_moments(int dimension, vector along, lanes factor, vec
         for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);
 }
 
+/// What the law says, as it acts on the bodies: g times as much where the overlap has a gain g.
+SCREE_INLINE law_force contact_law(variant v, const law_constants *constants, const law_settings *settings,
+                                   const kinematics *m, lanes_bits touching, const law_memory *before,
+                                   law_memory *after)
+{
+    law_force f = law_evaluate(v, constants, settings, m, touching, before, after);
+    if (!geometry_has_gains(v)) return f;
+    const int count = tangential_count(v.dimension);
+    f.normal *= m->gain;
+    f.tangential = vector_times(count, f.tangential, m->gain);
+    f.couple = vector_times(count, f.couple, m->gain);
+    return f;
+}
+
 SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *constants, const law_settings *settings,
                                              const contact_scale *scale, const kinematics *m, lanes_bits touching,
                                              const law_memory *before, law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     const bool pulls = law_traits(v)->pulls;
-    law_force f = law_evaluate(v, constants, settings, m, touching, before, after);
+    law_force f = contact_law(v, constants, settings, m, touching, before, after);
     law_forget(v, after);
     vector moment = moment_of(dimension, m->normal, f.tangential), force = force_on_first(dimension, &f, m->normal);
     contact_quanta q = {
@@ -135,6 +149,7 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         q.settle = f.settle;
         q.count = -f.in_contact;
     }
+    if (law_necks(v)) q.count = -f.in_contact;
     if (law_rolls(v)) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);

@@ -4,7 +4,8 @@
 ///   kinematics NAME_kinematics(dimension, first, second, step)   normal, overlap, levers, and the rates from them
 ///   kinematics NAME_beside(body, normal, distance, step)         the same beside a wall, without rates; the body moves
 ///                                                                as it does in the frame of the wall
-///   kinematics NAME_against(body, wall, apart, step)             the same beside a solid wall, of those with areas
+///   kinematics NAME_against(body, wall, apart, step)             the same beside the outline of a solid wall, of
+///                                                                those with `solids`
 ///   lanes NAME_reach(body)                                       from the centre towards a wall
 /// With a constant geometry the compiler keeps one branch. In lanes bodies have what their rows say; of one by one a
 /// geometry finds the rest by `state` and `row` of the bodies (fields of its shape's module, which ghosts follow).
@@ -17,6 +18,7 @@
 
 #if SCREE_LANES == 1
 #include "contact/outlines.h"
+#include "contact/rounded.h"
 #endif
 
 /// Kernels know those in lanes alone. A test may have one of its own behind all others, with code that it compiles
@@ -86,12 +88,24 @@ SCREE_INLINE bool geometry_has_areas(variant v)
     return all_geometry_traits[v.geometry]->areas;
 }
 
-#if SCREE_LANES == 1
-/// Beside the outline of a solid wall; the one geometry with areas.
-SCREE_INLINE kinematics geometry_against(const bodies *body, const scree_polygon *wall, const double apart[2],
-                                         double step)
+/// Whether rates and forces are those of an overlap with a gain.
+SCREE_INLINE bool geometry_has_gains(variant v)
 {
-    return outlines_against(body, wall, apart, step);
+    return all_geometry_traits[v.geometry]->gains;
+}
+
+/// Whether it takes the outline of a solid wall.
+SCREE_INLINE bool geometry_takes_solids(variant v)
+{
+    return all_geometry_traits[v.geometry]->solids;
+}
+
+#if SCREE_LANES == 1
+/// Beside the outline of a solid wall: of laws of areas, or of others.
+SCREE_INLINE kinematics geometry_against(variant v, const bodies *body, const scree_polygon *wall,
+                                         const double apart[2], double step)
+{
+    return geometry_has_areas(v) ? outlines_against(body, wall, apart, step) : rounded_against(body, wall, apart, step);
 }
 #endif
 

@@ -26,10 +26,19 @@ static const scree_choice tangential_histories[] = {
     {0},
 };
 
+static const scree_choice rolling_resistances[] = {
+    {"springs", SCREE_ROLLING_SPRINGS, "springs with sliders, of the stiffness of the tangential one"},
+    {"constant", SCREE_ROLLING_CONSTANT,
+     "a torque of constant size against the motion, however slow (Zhou et al. 1999); it holds nothing at rest"},
+    {0},
+};
+
 typedef scree_mindlin_config contact;
 static const scree_key contact_keys[] = {
     CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
            .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
+    CHOICE(contact, rolling_resistance, rolling_resistances, .standard = "springs", .when = "law=hertz_mindlin",
+           .meaning = "How contacts resist rolling and twisting, where materials do."),
 };
 
 typedef scree_mindlin_material material;
@@ -70,7 +79,8 @@ static unsigned options(const void *own, const scree_config_material *of)
     const contact *c = own;
     const material *m = own_material(of);
     bool rolls = m->rolling_friction > 0 || m->twisting_friction > 0;
-    return (c->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0) | (rolls ? MINDLIN_ROLLING : 0);
+    const unsigned how = c->rolling_resistance == SCREE_ROLLING_CONSTANT ? MINDLIN_CONSTANT : MINDLIN_ROLLING;
+    return (c->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0) | (rolls ? how : 0);
 }
 
 static scree_pair_constants constants(const scree_contact_space *space, const scree_config_material *a,
@@ -128,25 +138,23 @@ static scree_status impact(const scree_law_use *use, const scree_pair_constants 
 
 // ---- what a contact remembers --------------------------------------------------------------------------------------
 
-#define ROLLS        .options = 1U << MINDLIN_ROLLING | 1U << (MINDLIN_ROLLING | MINDLIN_RESCALED)
-#define K_T          "tangential_stiffness", "N/m", "stiffness of the tangential spring in the last step"
-#define ROLLED       "rolling_displacement", "m", "displacement of rolling"
-#define ROLLING_LAST "rolling_damping_force", "N", "what the dashpot added to the rolling spring in the last step"
-#define TWISTED      "twist", "rad", "angle of twist about the normal"
-#define TWIST_LAST   "twisting_damping_torque", "N m", "what the dashpot added to the twisting spring in the last step"
+#define ROLLS  .options = 1U << MINDLIN_ROLLING | 1U << (MINDLIN_ROLLING | MINDLIN_RESCALED)
+#define TURNED .options = 1U << MINDLIN_CONSTANT | 1U << (MINDLIN_CONSTANT | MINDLIN_RESCALED)
 static const scree_field fields[] = {
     SCREE_REMEMBERS(hertz_mindlin, history, 0, SCREE_AXIAL_VECTOR, SCREE_TANGENTIAL_DISPLACEMENT_FIELD,
                     .in_checksum = true),
-    SCREE_REMEMBERS(hertz_mindlin, history, 1, 1, K_T, .only_dimension = 2),
+    SCREE_REMEMBERS(hertz_mindlin, history, 1, 1, SCREE_TANGENTIAL_STIFFNESS_FIELD, .only_dimension = 2),
     SCREE_REMEMBERS(hertz_mindlin, history, 2, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),
-    SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, K_T, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, SCREE_TANGENTIAL_STIFFNESS_FIELD, .only_dimension = 3),
     SCREE_REMEMBERS(hertz_mindlin, last_force, 0, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
     SCREE_REMEMBERS(hertz_mindlin, last_force, 1, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
-    SCREE_REMEMBERS(hertz_mindlin, rolling, 0, SCREE_AXIAL_VECTOR, ROLLED, ROLLS, .in_checksum = true),
-    SCREE_REMEMBERS(hertz_mindlin, rolling, 3, 1, TWISTED, ROLLS, .only_dimension = 3, .in_checksum = true),
-    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 0, SCREE_AXIAL_VECTOR, ROLLING_LAST, ROLLS),
-    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 3, 1, TWIST_LAST, ROLLS, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, rolling, 0, SCREE_AXIAL_VECTOR, SCREE_ROLLED_FIELD, ROLLS, .in_checksum = true),
+    SCREE_REMEMBERS(hertz_mindlin, rolling, 3, 1, SCREE_TWISTED_FIELD, ROLLS, .only_dimension = 3, .in_checksum = true),
+    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 0, SCREE_AXIAL_VECTOR, SCREE_ROLLING_DAMPING_FIELD, ROLLS),
+    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 3, 1, SCREE_TWISTING_DAMPING_FIELD, ROLLS, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, rolling, 0, SCREE_AXIAL_VECTOR, SCREE_ROLLING_FORCE_FIELD, TURNED),
+    SCREE_REMEMBERS(hertz_mindlin, rolling, 3, 1, SCREE_TWISTING_TORQUE_FIELD, TURNED, .only_dimension = 3),
 };
 
 static const scree_law law = {

@@ -7,7 +7,8 @@
 ///   rolling   stretch [m], rate R_eff (w_first - w_second) x n, k_t, eta, cap mu_r f_n: F_r, torque R_eff n x F_r
 ///   twisting  angle [rad], rate (w_first - w_second) . n, k_t a^2 / 2, eta a^2 / 2, cap mu_tw R_eff f_n: torque along
 ///   n
-/// each a spring with a slider and a dashpot (slider.h). Twisting is that of two plane surfaces of radius a that stick
+/// each a spring with a slider and a dashpot (slider.h); those of rolling and twisting may be constant torques in place
+/// of it (MINDLIN_CONSTANT, constant_torque.h). Twisting is that of two plane surfaces of radius a that stick
 /// (Marshall 2009, whose cap is 2/3 a mu f_n; here its own coefficient, as for rolling). The couples on the two bodies
 /// are opposite.
 ///
@@ -36,150 +37,29 @@
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
 #define SCREE_CONTACT_HERTZ_MINDLIN_H
 
-#include "contact/hertz.h"
-#include "contact/law.h"
-#include "contact/slider.h"
-
-/// Options.
-enum {
-    MINDLIN_RESCALED = 1, ///< springs that stiffen keep their force, not their displacement
-    MINDLIN_ROLLING = 2,  ///< some pair of materials resists rolling or twisting
-};
-
-typedef enum scree_tangential_history {
-    SCREE_TANGENTIAL_DISPLACEMENT,
-    SCREE_TANGENTIAL_RESCALED
-} scree_tangential_history;
-
-/// What a case says of it, under `contact` and of a material.
-typedef struct scree_mindlin_config {
-    int tangential_history; ///< scree_tangential_history
-} scree_mindlin_config;
-
-typedef struct scree_mindlin_material {
-    double restitution;       ///< 1
-    double rolling_friction;  ///< 1, limit of the rolling resistance over the normal force
-    double twisting_friction; ///< 1, in 3D: limit of the twisting torque over R_eff times that force
-} scree_mindlin_material;
+#include "contact/mindlin.h"
 
 /// Resistance to turning looks materials up even if there is only one.
 #define hertz_mindlin_KERNELS(row)                                                                                     \
     row(hertz_mindlin, 0, one) row(hertz_mindlin, 0, many) row(hertz_mindlin, 1, one) row(hertz_mindlin, 1, many)      \
-        row(hertz_mindlin, 2, many) row(hertz_mindlin, 3, many)
+        row(hertz_mindlin, 2, many) row(hertz_mindlin, 3, many) row(hertz_mindlin, 4, many)                            \
+            row(hertz_mindlin, 5, many)
 
 /// In 2D the history holds what the ledger reads, too; k_t is for the ledger alone where springs are not rescaled.
-static const scree_law_traits hertz_mindlin_traits[] = {
-    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true},
-    [MINDLIN_RESCALED] = {.remembers = true,
-                          .for_ledger = {0xc, 0},
-                          .keeps_last_force = {false, true},
-                          .displacement = true},
-    [MINDLIN_ROLLING] = {.remembers = true,
-                         .for_ledger = {0xe, 0x8},
-                         .keeps_last_force = {false, true},
-                         .displacement = true,
-                         .rolling = true,
-                         .wide = true},
-    [MINDLIN_ROLLING | MINDLIN_RESCALED] = {.remembers = true,
-                                            .for_ledger = {0xc, 0},
-                                            .keeps_last_force = {false, true},
-                                            .displacement = true,
-                                            .rolling = true,
-                                            .wide = true},
-};
-
-SCREE_INLINE bool is_rescaled(variant v)
-{
-    return v.option & MINDLIN_RESCALED;
-}
-
-/// Three values of a row, one after the other.
-SCREE_INLINE vector row_vector(const lanes value[3])
-{
-    return (vector){value[0], value[1], value[2]};
-}
-
-/// k_t at n - 1.
-SCREE_INLINE lanes stiffness_before(int dimension, const law_memory *before)
-{
-    return before->value[dimension == 2 ? 1 : 3];
-}
-
-/// What a slider of stiffness k_t remembers, from the rows of its displacement and of its dashpot.
-SCREE_INLINE slider_memory remembered(int dimension, const kinematics *m, const law_memory *before,
-                                      const lanes displacement[3], const lanes dashpot[3])
-{
-    const lanes stiffness = stiffness_before(dimension, before);
-    if (dimension == 2)
-        return (slider_memory){{.x = displacement[0]}, {.x = displacement[0] * stiffness}, {.x = dashpot[0]}};
-    vector tangential_displacement = kinematics_carry_whole(3, m, row_vector(displacement));
-    return (slider_memory){tangential_displacement, vector_times(3, tangential_displacement, stiffness),
-                           kinematics_carry(3, m, row_vector(dashpot))};
-}
-
-/// min(1, k_t(n-1) / k_t): what stiffening springs keep of their displacement. 1 where nothing touches.
-SCREE_INLINE lanes kept_displacement(variant v, const law_memory *before, lanes tangential_stiffness)
-{
-    if (!is_rescaled(v)) return lanes_all(1);
-    return lanes_at_most(lanes_all(1), stiffness_before(v.dimension, before) / tangential_stiffness);
-}
-
-/// slider_move, of a displacement of which `kept` is left where springs are rescaled.
-SCREE_INLINE slider advance_slider(variant v, int count, slider_memory *before, lanes kept, vector rate,
-                                   vector dashpot_rate, double step, lanes stiffness, lanes viscosity, lanes cap,
-                                   lanes_bits touching)
-{
-    lanes lost = lanes_all(0);
-    if (is_rescaled(v)) lost = slider_rescale(count, before, kept);
-    slider s = slider_move(count, before, rate, dashpot_rate, step, stiffness, viscosity, cap, touching);
-    if (is_rescaled(v)) s.stiffness = s.stiffness - lost;
-    return s;
-}
-
-/// Adds a slider's energies to those of the contact.
-SCREE_INLINE void slider_work(law_force *f, const slider *s)
-{
-    f->damping += 0.5 * s->damping;
-    f->friction += 0.5 * s->friction;
-    f->stiffness += 0.5 * s->stiffness;
-    f->elastic_tangential += s->elastic;
-}
-
-/// Couple and energies of rolling and twisting resistance.
-SCREE_INLINE void resist_turning(variant v, const law_constants *constants, const kinematics *m, double step,
-                                 lanes tangential_stiffness, lanes eta, lanes normal, lanes_bits touching,
-                                 const law_memory *before, law_memory *after, law_force *f)
-{
-    const int dimension = v.dimension, count = tangential_count(dimension);
-    lanes kept = kept_displacement(v, before, tangential_stiffness);
-    slider_memory rolled = remembered(dimension, m, before, before->rolling, before->rolling_last);
-    slider roll = advance_slider(v, count, &rolled, kept, m->roll, m->dashpot_roll, step, tangential_stiffness, eta,
-                                 constants->value[HERTZ_ROLLING] * normal, touching);
-    f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
-    slider_work(f, &roll);
-    if (dimension == 2) {
-        after->rolling[0] = roll.now.displacement.x;
-        after->rolling_last[0] = roll.now.dashpot.x;
-        return;
+#define MINDLIN_TRAITS(ledger_2d, ledger_3d, ...)                                                                      \
+    {                                                                                                                  \
+        .remembers = true, .for_ledger = {ledger_2d, ledger_3d}, .keeps_last_force = {false, true},                    \
+        .displacement = true, __VA_ARGS__                                                                              \
     }
-    // a^2 / 2 at n - 1 from k_t = tangential_stiffness a.
-    lanes radius = tangential_stiffness / constants->value[HERTZ_TANGENTIAL], half_square = 0.5 * (radius * radius);
-    lanes radius_before = before->value[3] / constants->value[HERTZ_TANGENTIAL];
-    lanes twisting_before = before->value[3] * (0.5 * (radius_before * radius_before));
-    slider_memory twisted = {
-        {.x = before->rolling[3]}, {.x = twisting_before * before->rolling[3]}, {.x = before->rolling_last[3]}};
-    slider twist =
-        advance_slider(v, 1, &twisted, kept * kept * kept, (vector){.x = m->twist}, (vector){.x = m->dashpot_twist},
-                       step, tangential_stiffness * half_square, eta * half_square,
-                       constants->value[HERTZ_TWISTING] * m->reduced_radius * normal, touching);
-    f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
-    slider_work(f, &twist);
-    vector tangential_displacement = roll.now.displacement, dashpot = roll.now.dashpot;
-    lanes *value = after->rolling, *last = after->rolling_last;
-    value[0] = tangential_displacement.x, value[1] = tangential_displacement.y, value[2] = tangential_displacement.z,
-    value[3] = twist.now.displacement.x;
-    last[0] = dashpot.x, last[1] = dashpot.y, last[2] = dashpot.z, last[3] = twist.now.dashpot.x;
-}
+#define MINDLIN_TURNS .rolling = true, .wide = true
+static const scree_law_traits hertz_mindlin_traits[] = {
+    [0] = MINDLIN_TRAITS(0xe, 0x8),
+    [MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0),
+    [MINDLIN_ROLLING] = MINDLIN_TRAITS(0xe, 0x8, MINDLIN_TURNS),
+    [MINDLIN_ROLLING | MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0, MINDLIN_TURNS),
+    [MINDLIN_CONSTANT] = MINDLIN_TRAITS(0xe, 0x8, MINDLIN_TURNS),
+    [MINDLIN_CONSTANT | MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0, MINDLIN_TURNS),
+};
 
 SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, const law_settings *settings,
                                      const kinematics *m, lanes_bits touching, const law_memory *before,
@@ -219,6 +99,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
         .elastic_normal = 0.4 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };
+    if (v.option & MINDLIN_CONSTANT) resist_constantly(v, constants, m, settings->step, normal, before, after, &f);
     if (v.option & MINDLIN_ROLLING)
         resist_turning(v, constants, m, settings->step, tangential_stiffness, eta, normal, touching, before, after, &f);
     return f;

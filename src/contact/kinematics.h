@@ -86,6 +86,7 @@ typedef struct kinematics {
     lanes chord;                      ///< m,  first body moves along -n; lengths l of R 2.31, and the same of the radii
     lanes length, rest_length;        ///< m,  of equal area;
     lanes reduced_mass_along;         ///< kg, of the tangential motion at the point
+    lanes gain, gain_middle;          ///< 1, |gradient of the overlap|, of geometries with `gains`; middle of the step
     vector tilted;                    ///< rad, phi; zero against a plane
     lanes half;                       ///< 1, half of L / L(n - 1), of pairs in space
     vector turned;                    ///< rad, psi n, in space
@@ -175,6 +176,29 @@ SCREE_INLINE void kinematics_at_end(int dimension, bool levers, kinematics *m, c
     if (dimension == 2) return;
     m->dashpot_twist = vector_dot(3, relative, n);
     m->dashpot_roll = vector_times(3, vector_cross(relative, n), m->reduced_radius);
+}
+
+/// Of geometries with `gains`, whose overlap is no length along the normal n, but a function of the pose with the
+/// gradient g n: it grows g times as fast as the bodies approach each other. Rates and forces of laws are conjugate to
+/// the overlap: rates are g times those at the contact, and the bodies get g times the forces of the law
+/// (contact_law), along the normal and in the tangent plane alike. So power, energy, friction over normal force are
+/// those of the contact; the mass that belongs to such rates is m_eff / g^2, which the geometry sets.
+SCREE_INLINE void kinematics_gain(int dimension, kinematics *m)
+{
+    const int count = tangential_count(dimension);
+    m->approach *= m->gain_middle;
+    m->slip = vector_times(count, m->slip, m->gain_middle);
+    m->roll = vector_times(count, m->roll, m->gain_middle);
+    kinematics_set_dashpots(dimension, m);
+}
+
+/// The same of dashpots with rates of their own.
+SCREE_INLINE void kinematics_gain_at_end(int dimension, kinematics *m)
+{
+    const int count = tangential_count(dimension);
+    m->dashpot_approach *= m->gain;
+    m->dashpot_slip = vector_times(count, m->dashpot_slip, m->gain);
+    m->dashpot_roll = vector_times(count, m->dashpot_roll, m->gain);
 }
 
 /// Everything that depends on velocities; normal, overlap, arms, reduced radius and `tilted` are set.

@@ -49,8 +49,9 @@ typedef struct law_force {
     lanes loose_normal; ///< N, with the trait `deforms`: the part of the normal force that does not strain the bodies
     vector loose;       ///< N, the same of the tangential one
     lanes deformation;  ///< m, with the trait `holds`: from it the law bounds its forces
-    lanes_bits in_contact;                    ///< mask, with `holds`: there may be a force
-    lanes_bits settle;                        ///< mask, with `holds`: it breaks, or is broken and has parted
+    lanes_bits in_contact; ///< mask, with `holds` or `necks`: there may be a force
+    lanes adhesion;        ///< N, with `necks` or `pulls`: what friction is limited with beside the normal force
+    lanes_bits settle;     ///< mask, with `holds`: it breaks, or is broken and has parted
     lanes elastic_normal, elastic_tangential; ///< J; the springs of rolling and twisting count as tangential
 } law_force;
 

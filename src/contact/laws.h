@@ -4,6 +4,8 @@
 #define SCREE_CONTACT_LAWS_H
 
 #include "contact/hertz_brilliantov.h"
+#include "contact/hertz_dmt.h"
+#include "contact/hertz_jkr.h"
 #include "contact/hertz_mindlin.h"
 #include "contact/linear.h"
 #include "contact/polygon_overlap.h"
@@ -52,6 +54,12 @@ SCREE_INLINE bool law_rolls(variant v)
 SCREE_INLINE bool law_holds(variant v)
 {
     return law_traits(v)->holds;
+}
+
+/// Whether contacts may outlast the touch.
+SCREE_INLINE bool law_necks(variant v)
+{
+    return law_traits(v)->necks;
 }
 
 /// Whether the overlap follows the strains of the bodies.

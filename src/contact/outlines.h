@@ -27,7 +27,7 @@
 #include "shape/polygon_pair.h"
 #include "shape/polygons.h"
 
-static const scree_geometry_traits outlines_traits = {.levers = true, .coarse = true, .areas = true};
+static const scree_geometry_traits outlines_traits = {.levers = true, .coarse = true, .areas = true, .solids = true};
 
 /// Circles only: kinematics have an overlap above zero where outlines meet.
 SCREE_INLINE lanes_bits outlines_touches(int dimension, const bodies *first, const bodies *second)

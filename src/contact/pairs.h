@@ -47,7 +47,7 @@ SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t 
 }
 
 /// Bits of the near pairs p .. p + lanes - 1 that touch.
-/// Of bodies that deform those that may touch.
+/// Of bodies that deform those that may touch; of laws with necks those that may have one.
 SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
 {
     const int dimension = v.dimension;
@@ -56,6 +56,7 @@ SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
     find_bodies(job, &g);
     bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
     if (law_deforms(v)) first.radius += load_reach(dimension, job, &g);
+    if (law_necks(v)) first.radius += lanes_all(job->settings.number[SCREE_LAW_REACH]);
     return lanes_ones(geometry_touches(v, &first, &second));
 }
 
@@ -166,7 +167,7 @@ enum { IN_LANES = 0 };
 
 /// How many materials a kernel is for, as the rows of laws say it.
 enum { OF_one = 0, OF_many = 1 };
-enum { MOST_OPTIONS = 4 };
+enum { MOST_OPTIONS = 6 };
 
 #define PAIRS_2D_KERNEL(law, option, materials)                                                                        \
     VARIANT(pairs_2d_##law##_##option##_##materials, 2, law, option, OF_##materials)

@@ -75,11 +75,18 @@ SCREE_INLINE void evaluate_range(contact_job *job, variant v)
 /// The geometry of laws of areas.
 #define AREAS_OF(name) +(name##_traits.areas ? GEOMETRY_##name : 0)
 #define AREAS          (0 SCREE_GEOMETRIES_ONE_BY_ONE(AREAS_OF))
+/// That with gains, of all other laws.
+#define GAINS_OF(name) +(name##_traits.gains ? GEOMETRY_##name : 0)
+#define GAINS          (0 SCREE_GEOMETRIES_ONE_BY_ONE(GAINS_OF))
 
-/// Laws of areas have no kernels: this is their hot loop, with law and geometry as constants.
+/// Geometries of one by one have no kernels: this is their hot loop, with law and geometry as constants.
 #define PAIRS_OF_LAW(law_)                                                                                             \
     if (law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == AREAS && v.ledger) {                     \
         evaluate_range(job, (variant){2, SCREE_SLOT_##law_, 0, true, true, v.moments, AREAS});                         \
+        return;                                                                                                        \
+    }                                                                                                                  \
+    if (!law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == GAINS && v.ledger) {                    \
+        evaluate_range(job, (variant){2, SCREE_SLOT_##law_, v.option, true, true, v.moments, GAINS});                  \
         return;                                                                                                        \
     }
 

@@ -60,10 +60,11 @@ SCREE_INLINE void kinematics_lead(variant v, kinematics *m, const bodies *first,
     const bodies one = body_at_end(v.dimension, first);
     if (!second) {
         kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, NULL);
-        return;
+    } else {
+        const bodies other = body_at_end(v.dimension, second);
+        kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
     }
-    const bodies other = body_at_end(v.dimension, second);
-    kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
+    if (geometry_has_gains(v)) kinematics_gain_at_end(v.dimension, m);
 }
 
 /// own: constants of the pair's own; NULL: it has none.
@@ -158,6 +159,7 @@ SCREE_INLINE void kinematics_past(variant v, kinematics *m, const bodies *seen, 
     const int dimension = v.dimension;
     if (geometry_has_levers(v)) {
         kinematics_from_levers(dimension, m, seen, NULL, step);
+        if (geometry_has_gains(v)) kinematics_gain(dimension, m);
     } else {
         vector along = vector_across(dimension, seen->velocity, m->normal);
         vector lever = vector_times(tangential_count(dimension), seen->spin, m->arm_first);

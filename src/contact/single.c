@@ -58,6 +58,12 @@ static variant variant_of(const scree_model *model, int dimension, const scree_l
                      .geometry = model->geometry};
 }
 
+/// A neck outlasts the touch: what it remembers tells.
+static bool is_neck(double reach, const memory_rows *memory)
+{
+    return reach > 0 && !memory_is_clear(memory);
+}
+
 bool contact_pair_is_there(const scree_state *state, const scree_work *work, size_t p)
 {
     const scree_pair_section *section = scree_pairs_section(&work->pairs, p);
@@ -66,7 +72,9 @@ bool contact_pair_is_there(const scree_state *state, const scree_work *work, siz
     const contact_body second = contact_body_get(state, work->pairs.second[p]);
     const bodies one = contact_body_lane(state->dimension, &first),
                  other = contact_body_lane(state->dimension, &second);
-    return pair_touches((variant){.dimension = state->dimension, .geometry = section->geometry}, &one, &other);
+    const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
+    return is_neck(work->pairs.reach, &memory) ||
+           pair_touches((variant){.dimension = state->dimension, .geometry = section->geometry}, &one, &other);
 }
 
 bool contact_plate_is_there(const scree_state *state, const scree_work *work, size_t p)
@@ -75,7 +83,8 @@ bool contact_plate_is_there(const scree_state *state, const scree_work *work, si
     const contact_body body = contact_body_get(state, list->body[p]);
     const bodies one = contact_body_lane(state->dimension, &body);
     const variant v = {.dimension = state->dimension, .geometry = list->geometry};
-    return wall_touches(v, &one, &scree_plates(state)[list->wall[p]]);
+    const memory_rows memory = contact_memory_of(work, CONTACT_PLATE, p);
+    return is_neck(list->reach, &memory) || wall_touches(v, &one, &scree_plates(state)[list->wall[p]]);
 }
 
 /// own: constants of a pair that is held; NULL: of no such pair. False when such a pair is broken and apart.
@@ -86,13 +95,12 @@ static bool describe(variant v, pair_law of, const scree_member_row *own, kinema
     law_constants c = constants_get(of.constants, own);
     law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(v, memory), after;
-    law_force f = law_evaluate(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
+    law_force f = contact_law(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
     describe_tangent(v.dimension, m, &f, contact);
-    double cap = of.constants->value[SCREE_FRICTION] * f.normal;
+    double load = f.normal + f.adhesion, cap = of.constants->value[SCREE_FRICTION] * load;
     contact->held = own != NULL;
     contact->bonded = own && own->value[SCREE_MEMBER_TENSION] >= 0;
-    contact->sliding =
-        !contact->bonded && f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
+    contact->sliding = !contact->bonded && load > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
     set_vector(contact->normal, m->normal);
     contact->overlap = m->overlap;
     contact->normal_force = f.normal;
@@ -123,7 +131,7 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
     const pair_law of = law_of_pair(model, own, &one, &other);
     const variant v = variant_of(model, dimension, of.law);
-    if (!own && !pair_touches(v, &one, &other)) return false;
+    if (!own && !is_neck(scree_law_use_reach(of.law), memory) && !pair_touches(v, &one, &other)) return false;
     kinematics m = geometry_kinematics(v, &one, &other, state->step_size);
     kinematics_lead(v, &m, &one, &other);
     if (state->stretch) expand(state, &m, first, second);
@@ -161,7 +169,7 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
     law_constants constants = constants_get(of.constants, own);
     law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(e.variant, memory);
-    e.force = law_evaluate(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
+    e.force = contact_law(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
     e.quanta =
         contact_evaluate(e.variant, &constants, &settings, &scale, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
     return e;
@@ -186,7 +194,7 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
     const int material = (int)one.material;
     const pair_law of = {scree_model_law_on_plate(model, material), &model->walls[material]};
     const variant v = variant_of(model, dimension, of.law);
-    if (!wall_touches(v, &one, wall)) return false;
+    if (!is_neck(scree_law_use_reach(of.law), memory) && !wall_touches(v, &one, wall)) return false;
     kinematics m = kinematics_of_wall(v, &one, wall, state->step_size);
     if (state->stretch) expand(state, &m, body, NULL);
     describe_wall(v, of, &one, &m, memory, contact);

@@ -54,29 +54,29 @@ static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
     touches->count = kept;
 }
 
-/// Whether laws of areas take the outline of this wall in place of its closest point.
+/// Whether the geometry takes the outline of this wall in place of its closest point.
 static bool has_outline(variant v, const scree_surface *surface)
 {
-    return surface->corner_count > 0 && geometry_has_areas(v);
+    return surface->corner_count > 0 && geometry_takes_solids(v);
 }
 
-/// Normal, overlap and levers; and, of laws of areas, how they move in `step`. seen: as it moves in the frame of the
-/// wall.
+/// Normal, overlap and levers; and, of geometries with levers, how they move in `step`. seen: as it moves in the frame
+/// of the wall.
 static kinematics lie_beside(const scree_surface *surface, variant v, const bodies *seen,
                              const scree_closest_point *closest, double step)
 {
     if (!has_outline(v, surface)) return geometry_beside(v, seen, closest->normal, closest->distance, step);
     const scree_polygon outline = scree_surface_outline(surface);
     const double apart[2] = {surface->centre[0] - seen->position.x, surface->centre[1] - seen->position.y};
-    return geometry_against(seen, &outline, apart, step);
+    return geometry_against(v, seen, &outline, apart, step);
 }
 
-/// Whether the body reaches its closest point, and if only kinematics tell, the wall.
+/// Whether the body reaches its closest point, or a neck of this reach [m] may, and if only kinematics tell, the wall.
 static bool touches_primitive(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
-                              const scree_closest_point *closest)
+                              const scree_closest_point *closest, double reach)
 {
     const scree_surface *surface = contact_surface_of(wall_set, primitive);
-    const double radius = wall_reach(v.dimension, body->radius, closest->normal, body->stretch);
+    const double radius = wall_reach(v.dimension, body->radius, closest->normal, body->stretch) + reach;
     if (has_outline(v, surface) ? closest->distance >= radius
                                 : !scree_closest_point_touches(wall_set, primitive, closest, radius))
         return false;
@@ -96,7 +96,9 @@ void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, 
     for (size_t p = begin; p < end; p++) {
         primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
         scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
-        if (touches_primitive(wall_set, pairs->wall[p], v, body, &touch.closest)) insert(touches, &touch);
+        const memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
+        const double reach = pairs->reach > 0 && !memory_is_clear(&rows) ? pairs->reach : 0;
+        if (touches_primitive(wall_set, pairs->wall[p], v, body, &touch.closest, reach)) insert(touches, &touch);
     }
     merge(wall_set, touches);
 }

@@ -11,9 +11,9 @@
 /// a body is a continuous function of its place wherever faces meet at a smaller angle than `smooth` or at convex
 /// edges.
 ///
-/// Under laws of areas a plane touches where the outline of the body does, and a solid with an outline is one contact,
-/// whatever edges and corners of it the body covers: normal, point and depth are those of the overlap
-/// (contact/outlines.h), and the closest point of the centre only tells who is near.
+/// For polygons, sharp or rounded, a plane touches where the outline of the body does, and a solid with an outline is
+/// one contact, whatever edges and corners of it the body covers: normal, point and depth are those of the overlap
+/// (contact/outlines.h, contact/rounded.h), and the closest point of the centre only tells who is near.
 ///
 /// What contacts remember goes with their primitive. When a body touches a primitive anew and has just left another one
 /// of the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the

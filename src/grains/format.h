@@ -67,6 +67,11 @@ typedef struct grain_format {
                          scree_error *error);
 } grain_format;
 
+/// Snapshots of runs of Scree, which are no texts.
+bool grain_run_is(const char *path);
+scree_status grain_run_read(const char *path, const scree_grains_options *options, scree_grains *grains,
+                            scree_error *error);
+
 extern const grain_format grain_format_csv, grain_format_lammps_dump, grain_format_lammps_data, grain_format_yade;
 
 #endif

@@ -8,7 +8,7 @@
 
 static const grain_format *const formats[] = {&grain_format_yade, &grain_format_lammps_dump, &grain_format_lammps_data,
                                               &grain_format_csv, NULL};
-const char *const scree_grains_formats[] = {"csv", "lammps_dump", "lammps_data", "yade", NULL};
+const char *const scree_grains_formats[] = {"csv", "lammps_dump", "lammps_data", "yade", "run", NULL};
 
 static const grain_format *find(const char *name, const char *bytes)
 {
@@ -26,12 +26,11 @@ static scree_status check(const grain_text *text, const scree_grains *g, scree_e
     return SCREE_OK;
 }
 
-scree_status scree_grains_read(const char *path, const scree_grains_options *options, scree_grains *grains,
-                               scree_error *error)
+static scree_status read_text(const char *path, const scree_grains_options *options, scree_grains *grains,
+                              scree_error *error)
 {
     char *bytes = NULL;
     size_t length;
-    *grains = (scree_grains){0};
     scree_status status = scree_file_load(path, &bytes, &length, error);
     grain_text text = {.path = path, .next = bytes, .commas = ""};
     if (!status && memchr(bytes, 0, length))
@@ -43,6 +42,15 @@ scree_status scree_grains_read(const char *path, const scree_grains_options *opt
         if (!status) status = check(&text, grains, error);
     }
     scree_release(&bytes);
+    return status;
+}
+
+scree_status scree_grains_read(const char *path, const scree_grains_options *options, scree_grains *grains,
+                               scree_error *error)
+{
+    *grains = (scree_grains){0};
+    const bool run = options->format ? strcmp(options->format, "run") == 0 : grain_run_is(path);
+    const scree_status status = (run ? grain_run_read : read_text)(path, options, grains, error);
     if (status) scree_grains_destroy(grains);
     return status;
 }

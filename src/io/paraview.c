@@ -15,6 +15,7 @@
 #include "io/paraview.h"
 #include "measure/delaunay_boundary.h"
 #include "shape/polygons.h"
+#include "shape/rounding.h"
 #include "state/plates.h"
 
 #include "boundary/membrane.h"
@@ -68,6 +69,32 @@ static scree_status build_bodies(scree_vtp *vtp, const scene *from, scree_error 
     return status;
 }
 
+/// Points of a rounded corner.
+enum { ARC = 7 };
+
+/// Points of the outline of a body; 0 of a disc.
+static size_t outline_points(const scree_polygons *polygons, size_t row)
+{
+    const size_t corners = polygons->of[row].count;
+    return scree_rounding_of_row(polygons, row) > 0 ? ARC * corners : corners;
+}
+
+/// The outline of a body as it lies.
+static void trace_outline(const scree_state *state, size_t row, double placed[SCREE_POLYGON_CORNERS * ARC][2])
+{
+    const scree_polygons *polygons = scree_polygons_of(state);
+    const scree_corners of = polygons->of[row];
+    const double(*corner)[2] = (const double(*)[2])polygons->corner + of.first;
+    const double rounding = scree_rounding_of_row(polygons, row);
+    double rounded[SCREE_POLYGON_CORNERS * ARC][2];
+    if (rounding > 0) {
+        scree_rounding_trace((int)of.count, corner, rounding, ARC, rounded);
+        corner = (const double(*)[2])rounded;
+    }
+    scree_polygon_place((int)outline_points(polygons, row), corner,
+                        (const double[2]){state->row[row].x, state->row[row].y}, state->angle[row], placed);
+}
+
 /// Triangles of all outlines.
 static size_t count_triangles(const scree_state *state, size_t *corners)
 {
@@ -75,7 +102,7 @@ static size_t count_triangles(const scree_state *state, size_t *corners)
     size_t triangles = 0;
     *corners = 0;
     for (size_t row = 0; row < state->count && polygons->of; row++) {
-        const size_t count = polygons->of[row].count;
+        const size_t count = outline_points(polygons, row);
         *corners += count;
         triangles += count > 2 ? count - 2 : 0;
     }
@@ -87,18 +114,17 @@ static void place_outlines(scree_vtp *vtp, const scree_state *state)
     const scree_polygons *polygons = scree_polygons_of(state);
     size_t point = 0, cell = 0, id = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
-        const scree_corners of = polygons->of[row];
-        double placed[SCREE_POLYGON_CORNERS][2];
-        scree_polygon_place((int)of.count, (const double(*)[2])polygons->corner + of.first,
-                            (const double[2]){state->row[row].x, state->row[row].y}, state->angle[row], placed);
-        for (size_t k = 0; k < of.count; k++)
+        double placed[SCREE_POLYGON_CORNERS * ARC][2];
+        const size_t count = outline_points(polygons, row);
+        trace_outline(state, row, placed);
+        for (size_t k = 0; k < count; k++)
             scree_vtp_place(vtp, point + k, (const double[3]){placed[k][0], placed[k][1], 0});
-        for (size_t k = 2; k < of.count; k++, cell++) {
+        for (size_t k = 2; k < count; k++, cell++) {
             scree_vtp_join(vtp, cell, 0, point);
             scree_vtp_join(vtp, cell, 1, point + k - 1);
             scree_vtp_join(vtp, cell, 2, point + k);
         }
-        point += of.count;
+        point += count;
     }
 }
 
@@ -115,7 +141,7 @@ static scree_status spread_over_triangles(const scree_state *state, const scree_
     const unsigned char *from = array->data;
     size_t id = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW; from += size)
-        for (size_t k = 2; k < scree_polygons_of(state)->of[row].count; k++, to += size) memcpy(to, from, size);
+        for (size_t k = 2; k < outline_points(scree_polygons_of(state), row); k++, to += size) memcpy(to, from, size);
     return SCREE_OK;
 }
 

@@ -84,6 +84,7 @@ const scree_result scree_run_results[] = {
     {"limit_stands", "1", "nearest value at which a run stands"},
     {"limit_fails", "1", "nearest value at which none does"},
     {"limit_runs", "1", "runs of the search"},
+    {"limit_nearest", "1", "number of the run whose result is nearest to the target"},
 };
 const size_t scree_run_results_count = sizeof scree_run_results / sizeof *scree_run_results;
 

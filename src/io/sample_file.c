@@ -145,6 +145,10 @@ static void read_outlines(const reading *r)
     }
     scree_release(&first);
     scree_release(&count);
+    if (!has(r, "rounding")) return;
+    double *rounding = read_array(r, "rounding", SCREE_FIELD_DOUBLE, 1, &rows);
+    for (size_t k = 0; k < sample->bodies && !r->run->status; k++) sample->grain[k].rounding = rounding[k];
+    scree_release(&rounding);
 }
 
 static void read_grains(const reading *r)

@@ -8,6 +8,7 @@
 #include "io/cell_file.h"
 #include "io/run_file.h"
 #include "io/state_file.h"
+#include "model/material_name.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 #include "state/pressure.h"
@@ -101,6 +102,16 @@ static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *
     scree_array_destroy(&array);
 }
 
+/// Names of the materials, by their numbers.
+static void write_materials(scree_hdf5 *part, const char *group, const scree_model *model)
+{
+    char names[SCREE_MAX_MATERIALS * 65] = "";
+    for (int k = 0; k < model->material_count; k++)
+        (void)snprintf(names + strlen(names), sizeof names - strlen(names), k > 0 ? ",%s" : "%s",
+                       scree_model_material_name(model, k));
+    scree_hdf5_set_text(part, group, "materials", names);
+}
+
 void scree_snapshot_state_group(int64_t index, char *name, size_t size)
 {
     char group[64];
@@ -126,6 +137,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     if (info->stage_name) scree_hdf5_set_text(&part, group, "stage_name", info->stage_name);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
     scree_hdf5_set_integer(&part, group, "grains", scree_grain_count(state));
+    write_materials(&part, group, model);
     scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));
     scree_hdf5_set_number(&part, group, "gravity_x", model->gravity[0]);
     scree_hdf5_set_number(&part, group, "gravity_y", model->gravity[1]);
@@ -307,6 +319,9 @@ static void read_polygons(scree_hdf5 *run, const char *group, scree_snapshot *sn
     for (size_t k = 0; k < snapshot->count && !run->status; k++)
         if ((size_t)snapshot->first_corner[k] + snapshot->corner_count[k] > snapshot->corners)
             scree_hdf5_damaged(run, "a body has corners that are not there");
+    (void)snprintf(name, sizeof name, "%s/rounding", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->rounding = read_column(run, group, "rounding", SCREE_FIELD_DOUBLE, 1, &snapshot->count);
 }
 
 /// Turns ids into places in the snapshot; the number of those that name no body.
@@ -387,7 +402,7 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->vz,        &snapshot->contact_z,    &snapshot->wall_triangle,
                             &snapshot->wall_line, &snapshot->branch_x,     &snapshot->branch_y,
                             &snapshot->branch_z,  &snapshot->first_corner, &snapshot->corner_count,
-                            &snapshot->corner,    &snapshot->birth};
+                            &snapshot->corner,    &snapshot->birth,        &snapshot->rounding};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

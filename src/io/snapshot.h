@@ -110,6 +110,7 @@ typedef struct scree_snapshot {
     uint32_t *first_corner, *corner_count;           ///< of polygons, 0 of a disc; NULL: all are round
     double (*corner)[2];                             ///< m, in the frames of their bodies
     size_t corners;                                  ///< so many
+    double *rounding;                                ///< m, of corners; NULL: all are sharp
     double *birth;                                   ///< s; NULL: no body was born in the run
     size_t contact_count;
     uint32_t *first, *second;                ///< places in these arrays; second >= SCREE_PRIMITIVE_ID is a wall

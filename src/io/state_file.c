@@ -12,6 +12,8 @@
 
 #include <string.h>
 
+static const char PROGRAM[] = "Scree " SCREE_VERSION;
+
 // ---- the tables as one list --------------------------------------------------------------------------------------
 
 /// The field with this number; NULL when it is derived and therefore not stored, of the other dimension or of another
@@ -101,7 +103,7 @@ void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, 
                        uint64_t case_checksum)
 {
     scree_hdf5_group(part, group);
-    scree_hdf5_set_text(part, group, "program", "Scree " SCREE_VERSION);
+    scree_hdf5_set_text(part, group, "program", PROGRAM);
     scree_hdf5_set_integer(part, group, "layout", layout_checksum(state));
     write_laws(part, group, state);
     scree_hdf5_set_integer(part, group, "case_checksum", case_checksum);
@@ -132,8 +134,9 @@ static void check_origin(scree_hdf5 *file, const char *group, const scree_state 
     if (layout != layout_checksum(state))
         file->status = scree_error_set(file->error, SCREE_ERROR_INPUT,
                                        "'%s' is a checkpoint of another version of the state: it was written by %s, "
-                                       "this is Scree %s",
-                                       file->path, program, SCREE_VERSION);
+                                       "this is %s%s: begin the run anew (--force)",
+                                       file->path, program,
+                                       strcmp(program, PROGRAM) == 0 ? "another build of " : "", PROGRAM);
     else if (origin != case_checksum)
         file->status =
             scree_error_set(file->error, SCREE_ERROR_INPUT, "'%s' is a checkpoint of another case", file->path);

@@ -121,6 +121,17 @@ static scree_contact_space space_of(const scree_model *model)
     return (scree_contact_space){.dimension = model->dimension, .thickness = model->thickness};
 }
 
+/// Constants of two materials (NULL: something rigid) under law number `k`, as the case amends them.
+static scree_pair_constants constants_of(const scree_model *model, int k, const scree_config_material *one,
+                                         const scree_config_material *other)
+{
+    const scree_contact_space space = space_of(model);
+    const scree_law *law = scree_law_get(model->laws[k].law);
+    scree_pair_constants pair = law->constants(&space, one, other);
+    if (law->amend) law->amend(scree_config_law_keys(&model->config->contact, k), &pair);
+    return pair;
+}
+
 /// Material `grain` of the list on a wall of `material` (NULL: like the grain), and the number of their law; at
 /// LIST.INDEX.KEY the user said so.
 static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
@@ -132,9 +143,8 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     int found = material && !rigid ? find_material(model->config, material) : (int)grain;
     if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
     wall = rigid ? NULL : &model->config->materials[found];
-    const scree_contact_space space = space_of(model);
     *law = (uint8_t)law_number(model->config, grain, material);
-    *constants = scree_law_get(model->laws[*law].law)->constants(&space, body, wall);
+    *constants = constants_of(model, *law, body, wall);
     if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
     return SCREE_OK;
 }
@@ -193,15 +203,13 @@ static scree_status resolve_pairs(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     const scree_config_material *listed = config->materials;
-    const scree_contact_space space = space_of(model);
     for (int i = 0; i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++) {
             const scree_config_material *other = &listed[model->listed[j]];
             const int law = law_number(config, model->listed[i], other->name);
             model->law_of_pairs[i][j] = model->law_of_pairs[j][i] = (uint8_t)law;
-            model->pairs[i][j] = model->pairs[j][i] =
-                scree_law_get(model->laws[law].law)->constants(&space, material, other);
+            model->pairs[i][j] = model->pairs[j][i] = constants_of(model, law, material, other);
         }
     }
     resolve_options(model);
@@ -310,40 +318,101 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
-/// Geometry of the contacts of two shapes, under laws of areas or not: its number among the geometries, in their order.
-static int geometry_of(const scree_shape *one, const scree_shape *other, bool areas)
+/// Whether a geometry serves all pairs of shapes of a case.
+static bool serves_all(const scree_geometry *geometry, const scree_config_particles *particles)
 {
-    int number = 0, found = -1;
+    bool all = true;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++)
+        for (int64_t t = 0; t <= s; t++)
+            all = all && geometry->serves(scree_modules[scree_config_shape(particles, s)]->shape,
+                                          scree_modules[scree_config_shape(particles, t)]->shape);
+    return all;
+}
+
+/// Geometry of all contacts, under laws of areas or not: its number among the geometries, in their order; -1: none.
+static int geometry_of(const scree_config_particles *particles, bool areas, const scree_geometry **chosen)
+{
+    int number = 0;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
-        const scree_geometry *geometry = scree_modules[m]->geometry;
-        if (!geometry) continue;
-        if (found < 0 && geometry->traits->areas == areas && geometry->serves(one, other)) found = number;
+        *chosen = scree_modules[m]->geometry;
+        if (!*chosen) continue;
+        if ((*chosen)->traits->areas == areas && serves_all(*chosen, particles)) return number;
         number++;
     }
-    return found;
+    return -1;
+}
+
+/// Names of the laws that are of areas, or of those that are not.
+static void list_laws(bool areas, char list[256])
+{
+    list[0] = 0;
+    for (int m = 0, length = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->law && scree_modules[m]->law->traits[0].areas == areas)
+            length +=
+                snprintf(list + length, 256 - (size_t)length, "%s%s", length > 0 ? ", " : "", scree_modules[m]->name);
+}
+
+/// Rounded corners go with laws of springs, sharp ones with laws of areas.
+static scree_status check_rounding(const scree_model *model, bool areas, scree_error *error)
+{
+    const scree_config_particles *particles = &model->config->particles;
+    const char *law = scree_modules[model->laws[0].law]->name;
+    char others[256];
+    list_laws(!areas, others);
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++) {
+        const scree_shape *shape = scree_modules[scree_config_shape(particles, s)]->shape;
+        if (!shape->rounding) continue;
+        const double rounding = shape->rounding(scree_config_shape_keys(particles, s));
+        if (areas && rounding > 0)
+            return FIELD_ERROR(error, "particles.rounding",
+                               "law %s takes the area that two outlines share, and knows sharp corners alone: leave "
+                               "rounding out, or take contact.law %s",
+                               law, others);
+        if (!areas && !(rounding > 0))
+            return FIELD_ERROR(error, "contact.law",
+                               "law %s has no meaning for polygons with sharp corners: give particles.rounding (0.1, "
+                               "say), or take one of the laws of areas: %s",
+                               law, others);
+    }
+    return SCREE_OK;
 }
 
 static scree_status resolve_geometry(scree_model *model, scree_error *error)
 {
     const bool areas = scree_model_traits(model)->areas;
-    const scree_config_particles *particles = &model->config->particles;
+    const scree_geometry *chosen;
     for (int k = 1; k < scree_model_law_count(model); k++)
         if (scree_law_use_traits(&model->laws[k])->areas != areas)
             return FIELD_ERROR(error, "contact.pairs", "laws of areas and others do not go together in one case");
-    model->geometry = 0;
-    for (int64_t s = 0; s < scree_config_species_count(particles) && model->geometry >= 0; s++)
-        for (int64_t t = 0; t <= s && model->geometry >= 0; t++)
-            model->geometry = geometry_of(scree_modules[scree_config_shape(particles, s)]->shape,
-                                          scree_modules[scree_config_shape(particles, t)]->shape, areas);
-    if (model->geometry >= 0) return SCREE_OK;
-    char others[256] = "";
-    for (int m = 0, length = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->law && scree_modules[m]->law->traits[0].areas != areas)
-            length += snprintf(others + length, sizeof others - (size_t)length, "%s%s", length > 0 ? ", " : "",
-                               scree_modules[m]->name);
+    model->geometry = geometry_of(&model->config->particles, areas, &chosen);
+    model->largest_gain = model->geometry >= 0 && chosen->traits->gains ? SCREE_LARGEST_GAIN : 1;
+    if (model->geometry >= 0) return check_rounding(model, areas, error);
+    char others[256];
+    list_laws(!areas, others);
     return FIELD_ERROR(error, "contact.law",
                        "law %s has no meaning for particles of these shapes; those that may are: %s",
                        scree_modules[model->laws[0].law]->name, others);
+}
+
+/// What geometries with gains do not know: bonds, bodies whose surfaces move, friction that asks for the coming step.
+static scree_status check_gains(const scree_model *model, scree_error *error)
+{
+    if (!(model->largest_gain > 1)) return SCREE_OK;
+    for (int64_t i = 0; i < model->config->stage_count; i++)
+        if (scree_modules[model->config->stages[i].kind]->numbers->bonds)
+            return FIELD_ERROR(error, "stages", "bonds hold discs and spheres together: rounded polygons have none");
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_law_traits *traits = scree_law_use_traits(&model->laws[k]);
+        if (traits->deforms)
+            return FIELD_ERROR(error, "particles.rounding", "polygons are rigid: particles that deform are discs");
+        if (traits->looks_ahead)
+            return FIELD_ERROR(
+                error, "contact.friction_update",
+                "the implicit friction of law %s is that of discs: polygons need contact.friction_update: "
+                "explicit, or another law",
+                scree_modules[model->laws[k].law]->name);
+    }
+    return SCREE_OK;
 }
 
 static scree_status resolve_law(scree_model *model, scree_error *error)
@@ -397,6 +466,42 @@ static void take_numbers(const scree_config *config, scree_model *model)
     model->output = config->output;
 }
 
+/// Overlap over the smaller radius at which two grains of materials stick without a load; 0: they do not.
+static double sunk(const scree_model *model, int one, int other)
+{
+    const scree_law_use *law = scree_model_law_between(model, one, other);
+    const double least = model->radius_min;
+    return scree_law_get(law->law)->elastic->overlap(&model->pairs[one][other], 0.5 * least, 0) / least;
+}
+
+/// Cohesion may pull small grains into each other deeper than the guard lets anything be.
+static scree_status check_cohesion(const scree_model *model, scree_error *error)
+{
+    const double limit = model->config->guard.overlap;
+    for (int i = 0; i < model->material_count; i++)
+        for (int j = 0; j <= i; j++) {
+            const double deep = sunk(model, i, j);
+            if (!(deep > limit)) continue;
+            char text[SCREE_PATH_BYTES + 256];
+            (void)snprintf(text, sizeof text,
+                           "cohesion too strong: two grains of %.3g m sink into each other by %.2g of their radius "
+                           "without a load, and guard.overlap is %g; lower surface_energy or work_of_adhesion, or "
+                           "raise young_modulus or guard.overlap",
+                           model->radius_min, deep, limit);
+            return indexed_error(error, "materials", model->listed[i], "surface_energy", text);
+        }
+    return SCREE_OK;
+}
+
+/// Whether adhesion holds some pairs, which makes them stiffer than their load would.
+static const char *for_cohesion(const scree_model *model)
+{
+    bool sticks = false;
+    for (int i = 0; i < model->material_count; i++)
+        for (int j = 0; j <= i; j++) sticks = sticks || sunk(model, i, j) > 0;
+    return sticks ? " (the cohesion of this case counts in it: less surface_energy allows a larger one)" : "";
+}
+
 static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
@@ -416,16 +521,35 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
             "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
             "be unstable; give %.2g s, or auto, or guard.stability: warn to see",
             ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
-    scree_status status =
-        FIELD_ERROR(error, "integrator.step",
-                    "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "
-                    "give %.2g s, or auto, or guard.stability: warn to see",
-                    model->step, model->critical_step, two_digits_below(0.5 * model->critical_step));
+    scree_status status = FIELD_ERROR(
+        error, "integrator.step",
+        "a step of %.3g s is above the critical step of this case, %.3g s%s, and may be unstable; "
+        "give %.2g s, or auto, or guard.stability: warn to see",
+        model->step, model->critical_step, for_cohesion(model), two_digits_below(0.5 * model->critical_step));
     if (error) {
         (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);
         (void)snprintf(error->accepted, sizeof error->accepted, "up to %.3g s", two_digits_below(model->critical_step));
     }
     return status;
+}
+
+static void extend_reach(scree_model *model, int law, const scree_pair_constants *pair)
+{
+    const scree_law *face = scree_law_get(model->laws[law].law);
+    double *reach = &model->laws[law].number[SCREE_LAW_REACH];
+    if (scree_law_use_traits(&model->laws[law])->necks)
+        *reach = fmax(*reach, (1 + 1e-9) * face->neck(pair, scree_model_largest_radius(model)));
+}
+
+/// How far necks reach: those of the largest bodies on walls, where R_eff is largest.
+static void resolve_reach(scree_model *model)
+{
+    for (int i = 0; i < model->material_count + model->added_materials; i++) {
+        extend_reach(model, model->law_of_walls[i], &model->walls[i]);
+        for (int j = 0; j <= i; j++) extend_reach(model, model->law_of_pairs[i][j], &model->pairs[i][j]);
+        for (int64_t w = 0; w < model->wall_count; w++)
+            extend_reach(model, model->law_of_surfaces[w][i], &model->surfaces[w][i]);
+    }
 }
 
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
@@ -461,11 +585,14 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_law(model, error);
     if (!status) status = resolve_loading(model, error);
+    if (!status) status = check_gains(model, error);
     if (!status) resolve_persistent(model);
+    if (!status) status = check_cohesion(model, error);
     if (!status) status = resolve_step(model, error);
     if (!status) take_numbers(config, model);
     if (!status) status = resolve_boundaries(model, error);
     for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
         if (scree_modules[m]->resolve) status = scree_modules[m]->resolve(model, error);
+    if (!status) resolve_reach(model);
     return status;
 }

@@ -50,6 +50,7 @@
 #include "model/critical_step.h"
 
 #include "case/wall_motion.h"
+#include "module/geometry.h"
 #include "module/integrator.h"
 
 #include "base/vectors.h"
@@ -185,6 +186,15 @@ static double least_radius(const scree_model *model, int material)
     return isinf(least) ? model->radius_min : least;
 }
 
+/// Of contacts whose overlap has a gain g a law is g^2 times as stiff: that of two equal faces.
+static void stiffen(scree_contact_tangent *t)
+{
+    t->normal_stiffness *= SCREE_FACE_GAIN_SQUARE;
+    t->normal_damping *= SCREE_FACE_GAIN_SQUARE;
+    t->tangential_stiffness *= SCREE_FACE_GAIN_SQUARE;
+    t->tangential_damping *= SCREE_FACE_GAIN_SQUARE;
+}
+
 /// The estimate for contacts of two materials.
 static double estimate_of(const scree_model *model, int one, int other)
 {
@@ -212,6 +222,7 @@ static double estimate_of(const scree_model *model, int one, int other)
     if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(law, pair, effective_radius, effective_mass, force);
+    if (model->largest_gain > 1) stiffen(&tangent);
     return scree_critical_step_lattice(model->dimension, &tangent, fmin(mass, second),
                                        scree_integrator_get(model->scheme)->limit);
 }

@@ -11,6 +11,7 @@
 enum {
     SCREE_PAIR_CONSTANTS = 8,
     SCREE_LAW_NUMBERS = 8,
+    SCREE_LAW_REACH = 5,     ///< which of its numbers: m, beyond which no neck reaches; 0 without the trait `necks`
     SCREE_LAW_LOOSE = 6,     ///< which of its numbers, where bodies deform: 1 if dashpots do not strain them, else 0
     SCREE_LAW_CORRECTED = 7, ///< the same: 1 if their strains move contact points along the surfaces, too
     SCREE_FRICTION = 2,      ///< which of the constants of a pair is Coulomb's coefficient, in every law
@@ -45,6 +46,7 @@ typedef struct scree_law_traits {
     bool rolling;                ///< passes couples on: rolling rows
     bool looks_ahead;            ///< needs kinematics_predict
     bool pulls;                  ///< the normal force may be negative
+    bool necks;                  ///< a contact may outlast the touch (law_force.in_contact); it remembers that it does
     bool holds;                  ///< of pairs of the persistent list: no distance test, constants of the pair's own
     bool wide;                   ///< reads the second half of the constants
     bool areas;                  ///< forces follow from the area that bodies share: of polygons, in 2D
@@ -106,6 +108,12 @@ typedef struct scree_law {
     /// Constants of two materials; b is NULL for something rigid.
     scree_pair_constants (*constants)(const scree_contact_space *space, const scree_config_material *a,
                                       const scree_config_material *b);
+    /// What an element of contact.pairs, or `contact`, says of these constants itself. NULL: nothing.
+    void (*amend)(const void *own, scree_pair_constants *pair);
+    /// Gap [m] at which the neck of two bodies of an effective radius [m] breaks. NULL: without the trait `necks`.
+    double (*neck)(const scree_pair_constants *pair, double effective_radius);
+    /// Tabor parameter of adhesion [1] of two bodies of an effective radius [m]; 0: they do not stick. NULL: none does.
+    double (*tabor)(const scree_pair_constants *pair, double effective_radius);
     /// Young's modulus [Pa] that would make grains of a material and radius [m] as stiff as they are, where its springs
     /// do not follow young_modulus; NAN where they do. NULL: they always do.
     double (*modulus)(const scree_contact_space *space, const scree_config_material *material, double radius);
@@ -135,6 +143,12 @@ static inline const scree_law *scree_law_get(int slot)
 static inline const scree_law_traits *scree_law_use_traits(const scree_law_use *use)
 {
     return &scree_law_get(use->law)->traits[use->option];
+}
+
+/// Gap [m] beyond which no neck under it reaches; 0: it has none.
+static inline double scree_law_use_reach(const scree_law_use *use)
+{
+    return scree_law_use_traits(use)->necks ? use->number[SCREE_LAW_REACH] : 0;
 }
 
 #endif

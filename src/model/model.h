@@ -87,6 +87,7 @@ struct scree_model {
     double density[SCREE_MAX_MATERIALS];
     scree_upkeep upkeep;
     scree_servo_limits servo;
+    double largest_gain;  ///< 1, that the geometry of contacts can have (contact/kinematics.h); 1, or 0: it has none
     double overlap_limit; ///< 1, largest overlap over the smaller radius
     double energy_growth; ///< 1, largest residual of the ledger over all energy that there is and was
     bool stability_warns; ///< above a limit of stability a run goes on with a warning
@@ -184,6 +185,14 @@ static inline bool scree_model_predicts(const scree_model *model)
     for (int k = 0; k < scree_model_law_count(model); k++)
         ahead = ahead || scree_law_use_traits(&model->laws[k])->looks_ahead;
     return ahead;
+}
+
+/// Gap [m] beyond which no neck of two bodies reaches (the trait `necks` of laws); 0: there are none.
+static inline double scree_model_reach(const scree_model *model)
+{
+    double reach = 0;
+    for (int k = 0; k < scree_model_law_count(model); k++) reach = fmax(reach, scree_law_use_reach(&model->laws[k]));
+    return reach;
 }
 
 /// Normal stiffness [N/m] of a contact of two mean particles under the force pressure x diameter x depth.

@@ -10,7 +10,14 @@ typedef struct scree_geometry_traits {
     bool levers; ///< forces act at a point anywhere, along the normal too; else on the normal through both centres
     bool coarse; ///< `touches` may say yes of bodies that do not: kinematics tell, by an overlap above zero
     bool areas;  ///< kinematics have what laws of areas read: area, chord, length, rest_length, reduced_mass_along
+    bool solids; ///< beside a solid wall with an outline it takes the outline, not the closest point of the centre
+    bool gains;  ///< the overlap is not a length along the normal: its gradient is the gain (contact/kinematics.h)
 } scree_geometry_traits;
+
+/// No overlap has a larger gain: it is below the root of the number of its features, corners of two bodies.
+#define SCREE_LARGEST_GAIN 8.0
+/// Square of that of two faces with all four ends together: by it contacts may be stiffer than the law says.
+#define SCREE_FACE_GAIN_SQUARE 4.0
 
 typedef struct scree_geometry {
     const scree_geometry_traits *traits;

@@ -18,14 +18,14 @@
 #define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
-#define SCREE_LAWS_OF_OVERLAPS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
+#define SCREE_LAWS_OF_OVERLAPS(row) row(hertz_brilliantov) row(hertz_mindlin) row(hertz_jkr) row(hertz_dmt) row(linear)
 #define SCREE_LAWS_OF_AREAS(row)    row(polygon_overlap) row(polygon_potential)
 #define SCREE_LAWS(row)             SCREE_LAWS_OF_OVERLAPS(row) SCREE_LAWS_OF_AREAS(row)
 
 /// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order: those that are
 /// evaluated in lanes, and those of which pairs are evaluated one at a time.
 #define SCREE_GEOMETRIES_IN_LANES(row)   row(round)
-#define SCREE_GEOMETRIES_ONE_BY_ONE(row) row(outlines)
+#define SCREE_GEOMETRIES_ONE_BY_ONE(row) row(outlines) row(rounded)
 #define SCREE_GEOMETRIES(row)            SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
 
 /// Shapes of particles, in the order in which the case reference lists them.
@@ -45,14 +45,15 @@
         row(square) row(centred_rectangular) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth)       \
             row(dense) row(pair) row(bodies) row(file) row(empty) row(prepare) row(confine) row(compress) row(deform)  \
                 row(load_path) row(rotate_particle) row(relax) row(iterate) row(collide) row(bond) row(pour)           \
-                    row(point) row(line) row(region) row(background_damping) row(prescribed) row(plane) row(box)       \
-                        row(cylinder) row(cone) row(mesh) row(wall_polygon) row(uniform) row(two_sizes) row(equal)     \
-                            row(normal) row(log_normal) row(power_law) row(table) row(grading)
+                    row(point) row(line) row(region) row(background_damping) row(prescribed) row(outlet) row(plane)    \
+                        row(box) row(cylinder) row(cone) row(mesh) row(wall_polygon) row(uniform) row(two_sizes)       \
+                            row(equal) row(normal) row(log_normal) row(power_law) row(table) row(grading)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \
     row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
-        row(slopes) row(pile) row(increments) row(response) row(finite_elements) row(orientation) row(stress_path)
+        row(slopes) row(pile) row(increments) row(response) row(finite_elements) row(orientation) row(stress_path)     \
+            row(outflow) row(surface)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

@@ -37,6 +37,7 @@ static const scree_choice formats[] = {
     {"lammps_dump", 2, "frame of a LAMMPS dump"},
     {"lammps_data", 3, "LAMMPS data file of atom_style sphere"},
     {"yade", 4, "YADE's export.text"},
+    {"run", 5, "snapshot in the run.h5 of a run of Scree: its round grains, without their contacts"},
     {0},
 };
 #define WITH_FILE .when = "method=file"
@@ -52,7 +53,7 @@ static const scree_key keys[] = {
     NUMBER(config, time_unit, "s", .standard = "1 s", ABOVE("0 s"), TO("1e9 s"), WITH_FILE,
            .meaning = "Time of one unit of the file, the same."),
     NUMBER(config, frame, "1", .standard = "auto", FROM("0"), TO("1e18"), WITH_FILE,
-           .meaning = "Time step of the frame of a dump; auto: the last one."),
+           .meaning = "Time step of the frame of a dump, number of the snapshot of a run; auto: the last one."),
     KEY(config, at, SCREE_KEY_VECTOR, .unit = "m", .standard = "[0, 0]", FROM("-1e6 m"), TO("1e6 m"), WITH_FILE,
         .meaning = "Where the origin of the file lies; of one with a box, its lower corner."),
     NUMBER(config, radius_factor, "1", .standard = "1", FROM("0.1"), TO("10"), WITH_FILE,

@@ -156,6 +156,12 @@ double scree_quasistatic_inertial_now(const scree_simulation *s, double mean_str
     return inertial_number(&s->model, rate * scree_loading_rise(s, &loaded), pressure);
 }
 
+/// NAN where grains that stick have gained more from their surfaces than they are deformed by: nothing to compare with.
+static double over_stored(double kinetic, double stored)
+{
+    return stored >= 0 ? kinetic / stored : NAN;
+}
+
 void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simulation *s, scree_log *log)
 {
     const double *value = s->sample;
@@ -166,7 +172,7 @@ void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simula
     watch->kinetic += value[SCREE_SAMPLE_KINETIC];
     watch->elastic += value[SCREE_SAMPLE_ELASTIC_NORMAL] + value[SCREE_SAMPLE_ELASTIC_TANGENTIAL];
     watch->samples++;
-    double ratio = watch->kinetic / watch->elastic;
+    double ratio = over_stored(watch->kinetic, watch->elastic);
     bool early = watch->samples * EARLY >= (uint64_t)s->model.measure.samples &&
                  ratio > CLEARLY * scree_quasistatic_limits[SCREE_QUASISTATIC_KINETIC].limit;
     bool enough = s->stage_ended || (early && !settles);
@@ -195,7 +201,7 @@ static void observe(const scree_series *series, size_t first, size_t last, bool 
         sum += inertial[k];
         rows++;
     }
-    q->value[SCREE_QUASISTATIC_KINETIC] = moving / stored;
+    q->value[SCREE_QUASISTATIC_KINETIC] = over_stored(moving, stored);
     q->value[SCREE_QUASISTATIC_INERTIAL] = rows > 0 ? sum / rows : NAN;
 }
 

@@ -4,6 +4,7 @@
 #include "io/run_directory.h"
 #include "io/run_file.h"
 #include "io/snapshot.h"
+#include "run/after.h"
 #include "run/recorder.h"
 #include "run/restart.h"
 #include "run/results.h"
@@ -176,16 +177,16 @@ static void log_meshes(const scree_recorder *recorder, const scree_wall_set *wal
 }
 
 /// Common part of a new and a restarted run: `s` is open and at the point where stepping begins, the folder is locked.
-/// notes: what was found before, for the log.
+/// restarted: how, for the log; NULL: the run is new. notes: what was found before, for the log.
 static scree_status record(scree_simulation *s, const scree_run_options *options, const scree_folder_lock *lock,
-                           uint64_t checksum, bool restarted, const scree_notes *notes, scree_error *error)
+                           uint64_t checksum, const char *restarted, const scree_notes *notes, scree_error *error)
 {
     scree_recorder recorder;
-    scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted, error);
+    scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted != NULL, error);
     recorder.case_checksum = checksum;
     if (!status) {
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(), s->model.name,
-                        s->work.threads, s->work.threads == 1 ? "" : "s", restarted ? ", restarted" : "");
+                        s->work.threads, s->work.threads == 1 ? "" : "s", restarted ? restarted : "");
         scree_notes_visit(notes, log_note, &recorder.log);
         if (lock->unsupported)
             scree_log_write(&recorder.log, SCREE_LOG_WARNING,
@@ -211,21 +212,45 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
     return status;
 }
 
+/// Brings an open simulation that has a state to where stepping begins, its folder too. `point`: where the state is.
+static scree_status take_up(scree_simulation *s, const char *directory, uint64_t checksum,
+                            const scree_restart_point *point, scree_notes *notes, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    // Samples, checkpoints and the checksum may read the contacts before the first step.
+    if (s->state.count > 0) status = scree_neighbours_refresh(&s->model, &s->state, &s->work, error);
+    if (!status && s->state.stage.counter >= 0) status = scree_stage_enter(s, true, error);
+    return status ? status : scree_restart_rewind(s, directory, checksum, point, notes, error);
+}
+
+static scree_status make_folder(const scree_case *c, const scree_run_options *options, scree_notes *notes,
+                                scree_error *error)
+{
+    scree_error note = {0};
+    scree_status status = scree_run_directory_create(options->output, options->force, &note);
+    if (status && error) *error = note;
+    if (!status) status = save_case(options->output, c, error);
+    if (!status && note.message[0]) scree_notes_add(notes, "%s", note.message);
+    return status;
+}
+
 scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error)
 {
     uint64_t checksum;
     scree_simulation s;
     scree_folder_lock lock = {0};
-    scree_error note = {0};
     scree_notes notes = {0};
+    scree_after after;
+    const char *other = options->after;
     // Everything that can be wrong with the case is found before anything is written.
     scree_status status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = scree_case_checksum(c, &checksum, error);
+    if (!status && other) status = scree_after_read(&s, c, options, &after, error);
     if (!status) status = scree_run_directory_lock(options->output, &lock, error);
-    if (!status && (status = scree_run_directory_create(options->output, options->force, &note))) *error = note;
-    if (!status) status = save_case(options->output, c, error);
-    if (note.message[0]) scree_notes_add(&notes, "%s", note.message);
-    if (!status) status = record(&s, options, &lock, checksum, false, &notes, error);
+    if (!status) status = make_folder(c, options, &notes, error);
+    if (!status && other) status = scree_after_copy(&s, other, options->output, error);
+    if (!status && other) status = take_up(&s, options->output, checksum, &after.point, &notes, error);
+    if (!status) status = record(&s, options, &lock, checksum, other ? after.told : NULL, &notes, error);
     scree_folder_lock_release(&lock);
     scree_simulation_close(&s);
     return status;
@@ -244,11 +269,8 @@ static scree_status restart(const char *directory, const scree_run_options *opti
     scree_notes notes = {0};
     scree_restart_point point;
     if (!status) status = scree_restart_read(&s, directory, options->from, checksum, &point, &notes, error);
-    // Samples, checkpoints and the checksum may read the contacts before the first step.
-    if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
-    if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
-    if (!status) status = scree_restart_rewind(&s, directory, checksum, &point, &notes, error);
-    if (!status) status = record(&s, options, lock, checksum, true, &notes, error);
+    if (!status) status = take_up(&s, directory, checksum, &point, &notes, error);
+    if (!status) status = record(&s, options, lock, checksum, ", restarted", &notes, error);
     scree_simulation_close(&s);
     scree_case_free(c);
     return status;

@@ -16,6 +16,18 @@ static double first_inertial_number(const scree_model *model)
     return number;
 }
 
+/// The largest of contacts of two mean grains; NAN: nothing sticks.
+static double largest_tabor(const scree_model *model)
+{
+    double largest = 0;
+    for (int i = 0; i < model->material_count; i++)
+        for (int j = 0; j <= i; j++) {
+            const scree_law *law = scree_law_get(scree_model_law_between(model, i, j)->law);
+            if (law->tabor) largest = fmax(largest, law->tabor(&model->pairs[i][j], 0.5 * model->mean_radius));
+        }
+    return largest > 0 ? largest : NAN;
+}
+
 /// What cannot be probed leaves times that are not known; a case that is wrong shows when it is run.
 static scree_status estimate(const scree_case *c, const scree_model *model, scree_case_summary *summary,
                              scree_error *error)
@@ -58,7 +70,8 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
                                     .psi = model.psi,
                                     .mean_radius = model.mean_radius,
                                     .thickness = model.thickness,
-                                    .reference_velocity = model.reference_velocity};
+                                    .reference_velocity = model.reference_velocity,
+                                    .tabor = largest_tabor(&model)};
     (void)snprintf(summary->name, sizeof summary->name, "%s", c->config.name);
     // Walls that cannot be made are found here.
     scree_wall_set *wall_set;

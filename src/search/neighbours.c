@@ -349,6 +349,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     pairs->count = count;
     walls->count = wall;
     walls->geometry = elements->geometry = model->geometry;
+    pairs->reach = walls->reach = elements->reach = scree_model_reach(model);
     elements->count = element;
     scree_pair_sections_fill(model, state, work);
     list_wall_pairs(search, work);
@@ -409,6 +410,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     work->valid = false;
     // Surfaces of bodies that deform lie outside of the circles that the search knows.
     work->skin = fmax(work->skin, 4 * scree_deformation_of(state)->largest_reach);
+    // A neck begins with a touch, in the list; it must not leave the list while it lasts.
+    work->skin = fmax(work->skin, 2 * scree_model_reach(model));
     // Until the new list is whole, state->contact holds the histories: a rebuild that fails can be repeated.
     if (search->listed && is_of_these_bodies(search, state)) status = scree_histories_collect(state, work, error);
     if (status) return status;

@@ -6,9 +6,11 @@
 #include "module/key_rows.h"
 #include "module/shape.h"
 #include "shape/polygon_make.h"
+#include "shape/rounding.h"
 #include "state/fields.h"
 #include "state/sleep.h"
 
+#include <limits.h>
 #include <sleef.h>
 #include <string.h>
 
@@ -26,6 +28,7 @@ typedef struct config {
     int corner_angles;    ///< scree_polygon_scatter
     double (*corners)[2]; ///< of `given`, in any unit of length; NULL: not said
     int64_t corner_count;
+    double rounding; ///< 1, over the radius; 0: sharp
 } config;
 
 static const scree_choice outlines[] = {
@@ -55,6 +58,10 @@ static const scree_key keys[] = {
            .meaning = "Long over short axis of the ellipse."),
     CHOICE(config, corner_angles, scatters, .standard = "sectors", .when = "outline=ellipse",
            .meaning = "Where on the ellipse corners may lie."),
+    NUMBER(config, rounding, "1", .standard = "0", FROM("0"), TO("0.9"), WITH_POLYGON,
+           .meaning = "Radius of the corners over that of the disc of equal area: the outline is that of a smaller "
+                      "polygon with a disc of it swept along its edges. Laws of springs need rounded corners (0.1, "
+                      "say), laws of areas sharp ones (0)."),
 };
 
 /// What is wrong with the outline that is given.
@@ -62,15 +69,24 @@ static const char *wrong_outline(const config *c)
 {
     static _Thread_local scree_error why;
     if (!c->corners) return NULL; // missing, and noted
-    const int count = c->corner_count > SCREE_POLYGON_CORNERS ? SCREE_POLYGON_CORNERS + 1 : (int)c->corner_count;
+    const int count = c->corner_count > INT_MAX ? INT_MAX : (int)c->corner_count;
     return scree_polygon_check(count, (const double(*)[2])c->corners, &why) ? why.message : NULL;
+}
+
+/// Whether there are numbers that could not be read, and are noted.
+static bool is_unreadable(const config *c)
+{
+    bool all = true;
+    for (int64_t k = 0; c->corners && k < c->corner_count; k++)
+        all = all && isfinite(c->corners[k][0]) && isfinite(c->corners[k][1]);
+    return !all;
 }
 
 static const char *wrong(const void *said, const char **key)
 {
     const config *c = said;
     *key = "corners";
-    if (c->outline == GIVEN) return wrong_outline(c);
+    if (c->outline == GIVEN) return is_unreadable(c) ? NULL : wrong_outline(c);
     *key = "corners_max";
     return c->corners_max < c->corners_min ? "is less than corners_min" : NULL;
 }
@@ -86,34 +102,66 @@ static int take(const config *c, double corner[SCREE_POLYGON_CORNERS][2])
     return count;
 }
 
+/// Rounds an outline that has the area of a disc of radius 1: a core that has it with its rounding.
+static int round_off(const config *c, int count, double corner[SCREE_POLYGON_CORNERS][2])
+{
+    if (!(c->rounding > 0)) return count;
+    const double scale = scree_rounding_scale(count, (const double(*)[2])corner, c->rounding);
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 2; i++) corner[k][i] *= scale;
+    return count;
+}
+
+static scree_polygon_measures measure(const config *c, int count, double corner[SCREE_POLYGON_CORNERS][2])
+{
+    if (!(c->rounding > 0)) return scree_polygon_measure(count, (const double(*)[2])corner);
+    return scree_rounding_measure(count, (const double(*)[2])corner, c->rounding);
+}
+
+/// No body on an ellipse reaches farther, over the radius.
+static double reach_on_ellipse(const config *c)
+{
+    return SCREE_POLYGON_REACH * sqrt(c->axis_ratio);
+}
+
 /// Of a regular triangle 1.56.
 static double largest_reach(const void *said)
 {
     const config *c = said;
     double corner[SCREE_POLYGON_CORNERS][2];
-    if (c->outline != GIVEN) return SCREE_POLYGON_REACH * sqrt(c->axis_ratio);
+    if (c->outline != GIVEN) return reach_on_ellipse(c);
     if (!c->corners || wrong_outline(c)) return SCREE_POLYGON_REACH; // noted
-    return scree_polygon_measure(take(c, corner), (const double(*)[2])corner).bound * (1 + 0x1p-40);
+    const int count = round_off(c, take(c, corner), corner);
+    return measure(c, count, corner).bound * (1 + 0x1p-40);
 }
 
-/// Corners of body `number` with the area of a disc of radius 1.
+/// Corners of body `number`, of its core where they are rounded, with the area of a disc of radius 1.
 static int draw(const config *c, uint64_t seed, uint64_t number, double corner[SCREE_POLYGON_CORNERS][2])
 {
-    if (c->outline == GIVEN) return take(c, corner);
-    const int count = scree_polygon_draw_count(seed, number, (int)c->corners_min, (int)c->corners_max);
+    if (c->outline == GIVEN) return round_off(c, take(c, corner), corner);
+    int count = scree_polygon_draw_count(seed, number, (int)c->corners_min, (int)c->corners_max);
     // A list of 64 draws of one corner in each sector does not fail; where it does, the regular one is a polygon, too.
     if (c->outline == REGULAR ||
         scree_polygon_make_on_ellipse(seed, number, count, c->axis_ratio, (scree_polygon_scatter)c->corner_angles, 1,
                                       corner, NULL))
         scree_polygon_make_regular(count, 1, corner);
-    return count;
+    count = round_off(c, count, corner);
+    // Rounding moves the centre a little: the one sliver in many that reaches too far then is a regular one, too.
+    if (!(c->rounding > 0) || measure(c, count, corner).bound <= reach_on_ellipse(c)) return count;
+    scree_polygon_make_regular(count, 1, corner);
+    return round_off(c, count, corner);
 }
 
 static double reach(const void *said, uint64_t seed, uint64_t number)
 {
     double corner[SCREE_POLYGON_CORNERS][2];
     const int count = draw(said, seed, number, corner);
-    return scree_polygon_measure(count, (const double(*)[2])corner).bound;
+    return measure(said, count, corner).bound;
+}
+
+static double rounding(const void *said)
+{
+    return ((const config *)said)->rounding;
 }
 
 static scree_status dress(const scree_model *model, const void *said, uint64_t number, scree_state *state, size_t row,
@@ -121,11 +169,11 @@ static scree_status dress(const scree_model *model, const void *said, uint64_t n
 {
     double corner[SCREE_POLYGON_CORNERS][2];
     const int count = draw(said, model->seed, number, corner);
-    const double bound = scree_polygon_measure(count, (const double(*)[2])corner).bound;
+    const double bound = measure(said, count, corner).bound;
     const double scale = state->row[row].radius / bound;
     for (int k = 0; k < count; k++)
         for (int i = 0; i < 2; i++) corner[k][i] *= scale;
-    return scree_polygons_set(model, state, row, count, (const double(*)[2])corner, error);
+    return scree_polygons_set(model, state, row, count, (const double(*)[2])corner, scale * rounding(said), error);
 }
 
 // ---- fields ------------------------------------------------------------------------------------------------------
@@ -137,16 +185,21 @@ static const scree_group pool = {
     .capacity_offset = offsetof(own, capacity),
 };
 
-enum { FIRST };
+enum { FIRST, CORNERS, ROUNDING };
 static const scree_field fields[] = {
     [FIRST] = SCREE_FIELD_BODY(polygon, own, of, scree_corners, "first_corner", SCREE_FIELD_UINT32, 1, "1",
                                "place of its first corner in polygons/corner, where there are polygons",
                                .offset = offsetof(scree_corners, first), .only_dimension = 2, .optional = true,
                                .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true, SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
-    SCREE_FIELD_BODY(polygon, own, of, scree_corners, "corner_count", SCREE_FIELD_UINT32, 1, "1",
-                     "number of its corners; 0 of a disc", .offset = offsetof(scree_corners, count),
-                     .only_dimension = 2, .optional = true, .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true,
-                     SCREE_RANGE(0, SCREE_POLYGON_CORNERS)),
+    [CORNERS] = SCREE_FIELD_BODY(polygon, own, of, scree_corners, "corner_count", SCREE_FIELD_UINT32, 1, "1",
+                                 "number of its corners; 0 of a disc", .offset = offsetof(scree_corners, count),
+                                 .only_dimension = 2, .optional = true, .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true,
+                                 SCREE_RANGE(0, SCREE_POLYGON_CORNERS)),
+    [ROUNDING] = SCREE_FIELD_BODY(
+        polygon, own, rounding, double, "rounding", SCREE_FIELD_DOUBLE, 1, "m",
+        "radius of its corners, where some are rounded: its outline lies so far outside of its corners",
+        .only_dimension = 2, .optional = true, .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true,
+        SCREE_RANGE_TO(SCREE_LIMIT_LARGEST_RADIUS)),
     SCREE_FIELD_GROUP(polygon, own, pool, corner, double[2], "polygons/corner", SCREE_FIELD_DOUBLE, 2, "m",
                       "corners in the frames of their bodies, counter-clockwise, from the centroid", .snapshot = true,
                       .optional = true),
@@ -196,14 +249,18 @@ static scree_status begin(scree_state *state, scree_error *error)
 }
 
 scree_status scree_polygons_set(const scree_model *model, scree_state *state, size_t row, int count,
-                                const double (*corner)[2], scree_error *error)
+                                const double (*corner)[2], double rounding, scree_error *error)
 {
     own *p = scree_polygons_of(state);
     scree_status status = begin(state, error);
-    p->of[row].count = 0;
-    if (!status) status = reserve(state, (size_t)count, error);
+    if (!status && rounding > 0) status = scree_state_begin_field(state, &fields[ROUNDING], error);
     if (status) return status;
-    const scree_polygon_measures m = scree_polygon_measure(count, corner);
+    p->of[row].count = 0;
+    status = reserve(state, (size_t)count, error);
+    if (status) return status;
+    if (p->rounding) p->rounding[row] = rounding;
+    const scree_polygon_measures m =
+        rounding > 0 ? scree_rounding_measure(count, corner, rounding) : scree_polygon_measure(count, corner);
     for (int k = 0; k < count; k++)
         for (int i = 0; i < 2; i++) p->corner[p->count + (size_t)k][i] = corner[k][i] - m.centroid[i];
     p->of[row] = (scree_corners){(uint32_t)p->count, (uint32_t)count};
@@ -227,7 +284,7 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
         const double *a = corner[k], *b = corner[k + 1 < of.count ? k + 1 : 0];
         least = fmin(least, (a[0] * b[1] - a[1] * b[0]) / hypot(b[0] - a[0], b[1] - a[1]));
     }
-    return least;
+    return fmin(least + scree_rounding_of_row(p, row), bound);
 }
 
 /// Of all, or of those that are awake.
@@ -287,7 +344,10 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
         if (scree_polygon_check((int)of.count, (const double(*)[2])p->corner + of.first, &why))
             return scree_error_set(error, SCREE_ERROR_INPUT, "polygons/corner: body %u: %s", state->id[row],
                                    why.message);
-        const double bound = scree_polygon_measure((int)of.count, (const double(*)[2])p->corner + of.first).bound;
+        const double edge = scree_rounding_of_row(p, row);
+        double(*corner)[2] = p->corner + of.first;
+        double bound = edge;
+        for (size_t k = 0; k < of.count; k++) bound = fmax(bound, edge + hypot(corner[k][0], corner[k][1]));
         if (!(bound <= state->row[row].radius))
             return scree_error_set(error, SCREE_ERROR_INPUT, "radius: body %u reaches farther than its radius",
                                    state->id[row]);
@@ -296,7 +356,8 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 }
 
 /// Of each polygon, in the order of ids: its id, its angle, the number of its corners and they themselves, in its
-/// frame; radii of the discs of equal area and inertia follow from them.
+/// frame, and before them where some are rounded its rounding; radii of the discs of equal area and inertia follow from
+/// them.
 static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
 {
     const own *p = scree_polygons_of(state);
@@ -308,6 +369,7 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
         c = scree_checksum_word(c, state->id[row]);
         c = scree_checksum_number(c, state->angle[row]);
         c = scree_checksum_word(c, of.count);
+        if (p->rounding) c = scree_checksum_number(c, p->rounding[row]);
         for (size_t k = 0; k < of.count; k++)
             for (int i = 0; i < 2; i++) c = scree_checksum_number(c, p->corner[of.first + k][i]);
     }
@@ -341,5 +403,6 @@ const scree_module scree_module_polygon = {
                                   .wrong = wrong,
                                   .largest_reach = largest_reach,
                                   .reach = reach,
+                                  .rounding = rounding,
                                   .dress = dress},
 };

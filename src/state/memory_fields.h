@@ -53,7 +53,19 @@
 #define SCREE_STRENGTH_SLOPE_FIELD                                                                                     \
     "strength_slope", "1", "strength in shear that the bond gains with a compressive normal force"
 #define SCREE_TANGENTIAL_DISPLACEMENT_FIELD "tangential_displacement", "m", "tangential displacement; along t in 2D"
-#define SCREE_NORMAL_DAMPING_FIELD          "normal_damping_force", "N", "damping part of the normal force of the last step"
+#define SCREE_TANGENTIAL_STIFFNESS_FIELD                                                                               \
+    "tangential_stiffness", "N/m", "stiffness of the tangential spring in the last step"
+#define SCREE_ROLLED_FIELD "rolling_displacement", "m", "displacement of rolling"
+#define SCREE_ROLLING_DAMPING_FIELD                                                                                    \
+    "rolling_damping_force", "N", "what the dashpot added to the rolling spring in the last step"
+#define SCREE_TWISTED_FIELD "twist", "rad", "angle of twist about the normal"
+#define SCREE_TWISTING_DAMPING_FIELD                                                                                   \
+    "twisting_damping_torque", "N m", "what the dashpot added to the twisting spring in the last step"
+#define SCREE_ROLLING_FORCE_FIELD                                                                                      \
+    "rolling_force", "N", "constant torque against rolling over R_eff in the last step, along the rolling"
+#define SCREE_TWISTING_TORQUE_FIELD                                                                                    \
+    "twisting_torque", "N m", "constant torque against twisting in the last step, along the spin"
+#define SCREE_NORMAL_DAMPING_FIELD "normal_damping_force", "N", "damping part of the normal force of the last step"
 #define SCREE_TANGENTIAL_DAMPING_FIELD                                                                                 \
     "tangential_damping_force", "N",                                                                                   \
         "what the dashpot added to the tangential spring in the last step, positive along the displacement"

@@ -33,6 +33,7 @@ typedef struct scree_pair_list {
     scree_history *history;       ///< one a pair, seen from `first`
     scree_last_force *last_force; ///< with scree_contacts_add_work: one a pair; else NULL
     scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
+    double reach;                 ///< m, beyond which no neck of a law with the trait `necks` reaches; 0: none is
     int8_t *hint;                 ///< with laws of areas: what the geometry keeps of a pair, with no effect; else NULL
     size_t count, capacity;
     scree_pair_section section[SCREE_PAIR_SECTIONS];
@@ -88,6 +89,7 @@ typedef struct scree_wall_pair_list {
     scree_rolling *rolling;
     uint8_t *law; ///< numbers of laws, where contacts follow several; else NULL
     int geometry; ///< its number
+    double reach; ///< m, as in scree_pair_list
     size_t count, capacity;
 } scree_wall_pair_list;
 

@@ -4,7 +4,8 @@
 /// is predicted: `guard.stability: warn` is set in all of them, so that none is refused before it has run. Both ends
 /// are run first, one has to stand and the other not; then the middle (geometric where both have one sign) takes the
 /// place of the end that it is like, until the two are within the tolerance of each other. Near a limit growth is slow:
-/// what is found is the limit of runs of this length.
+/// what is found is the limit of runs of this length. With a target, runs are on the side of the first of them or on
+/// the other, and the search is also over when a result is within the tolerance of it.
 ///
 /// Each run is a process of its own with a folder below `runs`, begun anew only where it is missing: a search that was
 /// interrupted goes on. summary.json has the results of the last run that stood, and what the search has found.
@@ -85,9 +86,12 @@ scree_status scree_bisection_check(const scree_case *c, const scree_bisection *w
     if (!row || !row->unit)
         return refuse(error, "measure", scree_result_name_nearest(what->measure), "no run has a number '%s'",
                       what->measure);
-    if (isnan(what->below) && isnan(what->above))
-        return refuse(error, "below", "below, or above", "say below what, or above what, '%s' has to be",
-                      what->measure);
+    const bool bounds = !isnan(what->below) || !isnan(what->above);
+    if (!bounds && isnan(what->target))
+        return refuse(error, "below", "below, above, or target",
+                      "say below what, or above what, '%s' has to be, or what", what->measure);
+    if (bounds && !isnan(what->target))
+        return refuse(error, "target", "bounds, or a target", "a target goes without bounds");
     if (!(what->tolerance > 0 && what->tolerance < 1))
         return refuse(error, "tolerance", "above 0, below 1", "%g is no tolerance", what->tolerance);
     const char *nearest = NULL;
@@ -200,6 +204,9 @@ static scree_status judge(const search *s, const scree_member_paths *paths, trie
     t->measure = strtod(text, NULL);
     t->stands = (isnan(s->what->below) || t->measure < s->what->below) &&
                 (isnan(s->what->above) || t->measure > s->what->above);
+    if (isnan(s->what->target)) return SCREE_OK;
+    const bool more = t->measure > s->what->target;
+    t->stands = s->count == 0 || more == (s->run[0].measure > s->what->target);
     return SCREE_OK;
 }
 
@@ -229,8 +236,11 @@ static scree_status try_value(search *s, double value, scree_error *error)
     scree_case_free(c);
     if (status) return status;
     s->count++;
-    scree_sweep_tell(s->options, 0, "%s = %.6g: %s (%s %.4g)", s->what->key, value,
-                     t->stands ? "stands" : "does not stand", s->what->measure, t->measure);
+    if (isnan(s->what->target))
+        scree_sweep_tell(s->options, 0, "%s = %.6g: %s (%s %.4g)", s->what->key, value,
+                         t->stands ? "stands" : "does not stand", s->what->measure, t->measure);
+    else
+        scree_sweep_tell(s->options, 0, "%s = %.6g: %s %.6g", s->what->key, value, s->what->measure, t->measure);
     return SCREE_OK;
 }
 
@@ -241,17 +251,42 @@ static double middle(double a, double b)
     return a * b > 0 ? copysign(sqrt(a * b), a) : 0.5 * (a + b);
 }
 
+/// Number of the run whose result is nearest to the target; 0 without one.
+static int nearest_run(const search *s)
+{
+    int nearest = 0;
+    for (int k = 1; k < s->count; k++)
+        if (fabs(s->run[k].measure - s->what->target) < fabs(s->run[nearest].measure - s->what->target)) nearest = k;
+    return nearest;
+}
+
+static bool is_found(const search *s)
+{
+    const double target = s->what->target;
+    return !isnan(target) && fabs(s->run[nearest_run(s)].measure - target) <= s->what->tolerance * fabs(target);
+}
+
+/// Why both ends are alike.
+static scree_status refuse_ends(const search *s, const double ends[2], scree_error *error)
+{
+    if (!isnan(s->what->target))
+        return scree_error_set(
+            error, SCREE_ERROR_INPUT, "%s is %.6g and %.6g at the ends, %s = %.6g and %.6g: %.6g is not between them",
+            s->what->measure, s->run[0].measure, s->run[1].measure, s->what->key, ends[0], ends[1], s->what->target);
+    return scree_error_set(error, SCREE_ERROR_INPUT,
+                           "runs %s at both ends, %s = %.6g and %.6g: the limit is not between them",
+                           s->run[0].stands ? "stand" : "do not stand", s->what->key, ends[0], ends[1]);
+}
+
 static scree_status find_limit(search *s, const double ends[2], scree_error *error)
 {
     scree_status status = try_value(s, ends[0], error);
     if (!status) status = try_value(s, ends[1], error);
     if (status) return status;
-    if (s->run[0].stands == s->run[1].stands)
-        return scree_error_set(error, SCREE_ERROR_INPUT,
-                               "runs %s at both ends, %s = %.6g and %.6g: the limit is not between them",
-                               s->run[0].stands ? "stand" : "do not stand", s->what->key, ends[0], ends[1]);
     s->end[1] = 1;
-    while (!status && s->count < MOST_RUNS) {
+    if (is_found(s)) return SCREE_OK;
+    if (s->run[0].stands == s->run[1].stands) return refuse_ends(s, ends, error);
+    while (!status && s->count < MOST_RUNS && !is_found(s)) {
         const double a = s->run[s->end[0]].value, b = s->run[s->end[1]].value, between = middle(a, b);
         if (fabs(a - b) <= s->what->tolerance * fabs(between)) break;
         status = try_value(s, between, error);
@@ -279,16 +314,18 @@ static scree_status write_summary(const search *s, scree_error *error)
     char path[PATH_MAX];
     scree_member_paths paths;
     scree_summary *summary = NULL;
-    const int stands = s->run[s->end[0]].stands ? 0 : 1;
+    const int stands = s->run[s->end[0]].stands ? 0 : 1, nearest = nearest_run(s);
     const double last = s->run[s->end[stands]].value, first = s->run[s->end[1 - stands]].value;
-    scree_status status = find_paths(s, s->end[stands], &paths, error);
+    const bool targeted = !isnan(s->what->target);
+    scree_status status = find_paths(s, targeted ? nearest : s->end[stands], &paths, error);
     if (!status) status = scree_summary_create(&summary, error);
     if (!status) status = scree_result_visit(paths.folder, copy_result, summary, error);
     if (!status) {
-        scree_summary_set_number(summary, "limit", middle(last, first));
+        scree_summary_set_number(summary, "limit", targeted ? s->run[nearest].value : middle(last, first));
         scree_summary_set_number(summary, "limit_stands", last);
         scree_summary_set_number(summary, "limit_fails", first);
         scree_summary_set_integer(summary, "limit_runs", s->count);
+        if (targeted) scree_summary_set_integer(summary, "limit_nearest", nearest);
         status = scree_path_join(path, sizeof path, s->options->output, SCREE_FILE_SUMMARY, error);
     }
     if (!status) status = scree_summary_write(summary, path, error);
@@ -384,5 +421,9 @@ scree_status scree_bisect(const scree_case *c, const scree_bisection *what, cons
     *result = (scree_bisection_result){
         .stands = s.run[s.end[stands]].value, .fails = s.run[s.end[1 - stands]].value, .runs = s.count};
     result->limit = middle(result->stands, result->fails);
+    if (isnan(what->target)) return SCREE_OK;
+    result->nearest = nearest_run(&s);
+    result->limit = result->found = s.run[result->nearest].value;
+    result->measured = s.run[result->nearest].measure;
     return SCREE_OK;
 }

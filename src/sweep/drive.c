@@ -3,6 +3,7 @@
 /// the others. One that crashes, runs out of memory or is stopped by a guard takes nothing else with it.
 #include "sweep/process.h"
 #include "sweep/results.h"
+#include "sweep/share.h"
 
 #include "base/memory.h"
 #include "base/processor.h"
@@ -32,6 +33,8 @@ typedef struct drive {
     const scree_sweep *sweep;
     const scree_sweep_options *options;
     scree_member_state *state; ///< of each member
+    size_t *leader;            ///< whose sample each goes on with; itself: its own
+    bool *begun;               ///< in this call
     job *job;
     size_t jobs, running;
     size_t done, failed, left; ///< left: to be run in this call, and not begun yet
@@ -92,17 +95,18 @@ static scree_status write_case(const char *path, const char *text, scree_error *
     return scree_replace_finish(path, file, whole, error);
 }
 
-enum { MOST_ARGUMENTS = 32, NUMBER_TEXT = 32 };
+enum { MOST_ARGUMENTS = 32, NUMBER_TEXT = 48 };
 
 /// The process of a member that searches for a limit; it goes on by itself with what is there.
 static scree_status start_search(const drive *d, const scree_member_paths *paths, job *j, scree_error *error)
 {
     const scree_bisection *what = &d->sweep->bisection;
-    char threads[16], tolerance[NUMBER_TEXT], below[NUMBER_TEXT], above[NUMBER_TEXT];
+    char threads[16], tolerance[NUMBER_TEXT], below[NUMBER_TEXT], above[NUMBER_TEXT], target[NUMBER_TEXT];
     (void)snprintf(threads, sizeof threads, "%d", d->options->threads > 0 ? d->options->threads : 1);
     (void)snprintf(tolerance, sizeof tolerance, "%.9g", what->tolerance);
     (void)snprintf(below, sizeof below, "--below=%.17g", what->below);
     (void)snprintf(above, sizeof above, "--above=%.17g", what->above);
+    (void)snprintf(target, sizeof target, "--target=%.17g", what->target);
     const char *arguments[MOST_ARGUMENTS] = {
         d->options->program, "bisect",    paths->file,      "--output",  paths->folder,    "--key",
         what->key,           "--from",    what->between[0], "--to",      what->between[1], "--tolerance",
@@ -110,6 +114,7 @@ static scree_status start_search(const drive *d, const scree_member_paths *paths
     size_t count = 18;
     if (!isnan(what->below)) arguments[count++] = below;
     if (!isnan(what->above)) arguments[count++] = above;
+    if (!isnan(what->target)) arguments[count++] = target;
     if (what->curve[0]) arguments[count++] = "--curve";
     if (what->curve[0]) arguments[count++] = what->curve;
     if (!d->options->figures) arguments[count++] = "--no-figures";
@@ -117,11 +122,13 @@ static scree_status start_search(const drive *d, const scree_member_paths *paths
     return scree_process_start(arguments, j->log, &j->process, error);
 }
 
-/// The process of a member: from the begin, or from its checkpoint.
+/// The process of a member: from the begin, from its checkpoint, or behind what it shares with another one.
 static scree_status start_process(const drive *d, const scree_member_paths *paths, scree_member_state state, job *j,
                                   scree_error *error)
 {
     char threads[16];
+    scree_member_paths first;
+    const size_t leader = d->leader[j->member];
     const char *arguments[16] = {d->options->program, "run"};
     size_t count = 2;
     bool restart = scree_member_can_continue(paths, state);
@@ -134,7 +141,15 @@ static scree_status start_process(const drive *d, const scree_member_paths *path
     arguments[count++] = "--quiet";
     if (!d->options->figures) arguments[count++] = "--no-figures";
     if (!restart && state != SCREE_MEMBER_MISSING) arguments[count++] = "--force";
-    scree_member_note(j->log, "%s %s", restart ? "continues" : "begins", paths->folder);
+    const bool shares = !restart && leader != j->member && d->state[leader] == SCREE_MEMBER_DONE;
+    if (shares) {
+        scree_status status = scree_member_find(d->sweep, leader, d->options->output, &first, error);
+        if (status) return status;
+        arguments[count++] = "--after";
+        arguments[count++] = first.folder;
+    }
+    scree_member_note(j->log, "%s %s%s%s", restart ? "continues" : "begins", paths->folder, shares ? " behind " : "",
+                      shares ? first.folder : "");
     return scree_process_start(arguments, j->log, &j->process, error);
 }
 
@@ -283,16 +298,34 @@ static bool is_wanted(const drive *d, scree_member_state state)
     return state != SCREE_MEMBER_DONE;
 }
 
+/// Whether a member waits for the sample of another one, which this call runs.
+static bool waits(const drive *d, size_t member)
+{
+    const size_t leader = d->leader[member];
+    if (leader == member) return false;
+    for (size_t i = 0; i < d->running; i++)
+        if (d->job[i].member == leader) return true;
+    return !d->begun[leader] && is_wanted(d, d->state[leader]);
+}
+
+/// The first of members [from, to) that is to be begun now; `to`: none is.
+static size_t next_member(const drive *d, size_t from, size_t to)
+{
+    for (size_t i = from; i < to; i++)
+        if (!d->begun[i] && is_wanted(d, d->state[i]) && !(to - from > 1 && waits(d, i))) return i;
+    return to;
+}
+
 /// Runs the wanted ones of members [from, to).
 static void run_members(drive *d, size_t from, size_t to)
 {
-    size_t next = from;
     for (;;) {
-        while (next < to && !is_wanted(d, d->state[next])) next++;
-        bool stop = d->status || (d->options->stop && *d->options->stop);
-        if (!stop && next < to && d->running < d->jobs) {
+        const bool stop = d->status || (d->options->stop && *d->options->stop);
+        const size_t next = stop || d->running == d->jobs ? to : next_member(d, from, to);
+        if (next < to) {
             d->left--;
-            (void)start(d, next++);
+            d->begun[next] = true;
+            (void)start(d, next);
             report(d);
             continue;
         }
@@ -301,27 +334,35 @@ static void run_members(drive *d, size_t from, size_t to)
     }
 }
 
-/// State of members [from, to); a directory with another case is refused before anything is run.
+/// What is on disk of one member; a directory with another case is refused before anything is run.
+static scree_status look_at(drive *d, size_t member)
+{
+    scree_case *c;
+    scree_member_paths paths;
+    scree_status status = scree_member_find(d->sweep, member, d->options->output, &paths, d->error);
+    if (!status) status = scree_member_resolve(d->sweep, member, &c, d->error);
+    if (status) return status;
+    d->state[member] = scree_member_look(&paths, c, NULL, 0);
+    scree_case_free(c);
+    if (d->state[member] != SCREE_MEMBER_CHANGED || d->options->force) return SCREE_OK;
+    return scree_error_set(d->error, SCREE_ERROR_INPUT,
+                           "'%s' holds a run of another case: choose another folder, or --force to run it anew",
+                           paths.folder);
+}
+
+/// State of members [from, to), and of what they share a sample with.
 static scree_status look(drive *d, size_t from, size_t to)
 {
-    for (size_t i = from; i < to; i++) {
-        scree_case *c;
-        scree_member_paths paths;
-        scree_status status = scree_member_find(d->sweep, i, d->options->output, &paths, d->error);
-        if (!status) status = scree_member_resolve(d->sweep, i, &c, d->error);
-        if (status) return status;
-        d->state[i] = scree_member_look(&paths, c, NULL, 0);
-        scree_case_free(c);
-        if (d->state[i] == SCREE_MEMBER_CHANGED && !d->options->force)
-            return scree_error_set(d->error, SCREE_ERROR_INPUT,
-                                   "'%s' holds a run of another case: choose another folder, or --force to run it anew",
-                                   paths.folder);
-        bool wanted = is_wanted(d, d->state[i]);
+    scree_status status = scree_share_find(d->sweep, d->leader, d->error);
+    for (size_t i = from; i < to && !status; i++) {
+        if (d->leader[i] < from) status = look_at(d, d->leader[i]);
+        if (!status) status = look_at(d, i);
+        const bool wanted = is_wanted(d, d->state[i]);
         d->done += d->state[i] == SCREE_MEMBER_DONE;
         d->failed += d->state[i] == SCREE_MEMBER_FAILED && !wanted;
         d->left += wanted;
     }
-    return SCREE_OK;
+    return status;
 }
 
 /// Makes members/. One sweep at a time runs all members, and is told from the begin; tasks of a job array run one each.
@@ -345,6 +386,8 @@ static scree_status open_drive(drive *d, size_t from, size_t to)
     d->jobs = (size_t)(jobs < MOST_JOBS ? jobs : MOST_JOBS);
     scree_status status = make_folder(d, to - from == d->sweep->member_count);
     if (!status) status = scree_allocate(&d->state, d->sweep->member_count, sizeof *d->state, d->error);
+    if (!status) status = scree_allocate(&d->leader, d->sweep->member_count, sizeof *d->leader, d->error);
+    if (!status) status = scree_allocate(&d->begun, d->sweep->member_count, sizeof *d->begun, d->error);
     if (!status) status = scree_allocate(&d->job, d->jobs, sizeof *d->job, d->error);
     return status ? status : look(d, from, to);
 }
@@ -379,6 +422,8 @@ static scree_status tell_killed(const drive *d)
 static void close_drive(drive *d)
 {
     scree_release(&d->state);
+    scree_release(&d->leader);
+    scree_release(&d->begun);
     scree_release(&d->job);
     scree_folder_lock_release(&d->lock);
 }

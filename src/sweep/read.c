@@ -3,6 +3,7 @@
 #include "case/templates.h"
 #include "sweep/bisect.h"
 #include "sweep/ensemble.h"
+#include "sweep/share.h"
 #include "sweep/sweep.h"
 #include "sweep/templates.h"
 
@@ -181,9 +182,11 @@ static void keep_bisect(scree_reader *reader, scree_sweep *sweep)
                                          .measure = b->measure,
                                          .below = b->below,
                                          .above = b->above,
+                                         .target = b->target,
                                          .curve = b->curve};
     const scree_node *first = b->between ? b->between->first : NULL;
     if (!b->key || !b->key[0]) refuse_bisect(reader, "key", NULL, "says nothing about what is searched for");
+    if (sweep->config.share[0]) refuse_bisect(reader, "key", NULL, "a search shares no stage: leave `share` out");
     if (!first || b->between->count != 2 || !first->text || !first->next->text) {
         refuse_bisect(reader, "between", "two values", "expected two values, of which one stands");
         return;
@@ -275,6 +278,7 @@ static void apply_rules(scree_reader *reader, void *user)
     scree_sweep_check_cases(reader, sweep);
     if (scree_problems_count(reader->problems) == 0) check_told(reader, sweep);
     if (scree_problems_count(reader->problems) == 0) check_bisect(reader, sweep);
+    if (scree_problems_count(reader->problems) == 0) scree_share_check(reader, sweep);
 }
 
 static scree_status read_text(const input *in, scree_sweep **out, scree_problems **problems)

@@ -75,6 +75,8 @@ static const scree_key bisect_keys[] = {
         .meaning = "A run stands only if the result is below this (in SI units); auto: no such bound."),
     KEY(bisect, above, SCREE_KEY_NUMBER, .unit = "1", .standard = "auto", FROM("-1e300"), TO("1e300"),
         .meaning = "A run stands only if the result is above this; auto: no such bound."),
+    KEY(bisect, target, SCREE_KEY_NUMBER, .unit = "1", .standard = "auto", FROM("-1e300"), TO("1e300"),
+        .meaning = "What the result has to be, within the tolerance; auto: bounds decide."),
     TEXT(bisect, curve, "63", .standard = "",
          .meaning = "Column of series.csv that figures/runs of a member shows over time, of runs near the limit."),
 };
@@ -125,6 +127,9 @@ static const scree_key root_keys[] = {
         .meaning = "The same with `quick`; 0: as many."),
     KEY(config, seed, SCREE_KEY_INTEGER, .standard = "1", FROM("0"), TO("9007199254000000"),
         .meaning = "Seed of the first realisation; the others follow."),
+    TEXT(config, share, "63", .standard = "",
+         .meaning = "A stage. Members whose cases are the same up to its end share what came out of it: the first of "
+                    "them runs it, the others go on from there."),
     PATHS(config, set, .meaning = "Key path and value of everything that all members change."),
     PATHS(config, quick_set, .meaning = "The same with `quick`, after `set`."),
     LIST(config, vary, vary_table, vary_count, .meaning = "The grid: every combination of these."),

@@ -51,6 +51,7 @@ static void put_search(FILE *file, const scree_bisection *what)
     fprintf(file, " --tolerance %g --measure %s", what->tolerance, what->measure);
     if (!isnan(what->below)) fprintf(file, " --below=%g", what->below);
     if (!isnan(what->above)) fprintf(file, " --above=%g", what->above);
+    if (!isnan(what->target)) fprintf(file, " --target=%g", what->target);
     if (what->curve[0]) fprintf(file, " --curve %s", what->curve);
 }
 

@@ -45,7 +45,7 @@ typedef struct scree_sweep_bisect {
     const scree_node *between;
     double tolerance;
     char *measure;
-    double below, above; ///< NAN: not given
+    double below, above, target; ///< NAN: not given
     char *curve;
 } scree_sweep_bisect;
 
@@ -61,6 +61,7 @@ typedef struct scree_sweep_config {
     char *name, *title;
     char *base;  ///< the case: name of a built-in one, or a file beside the sweep file
     char *needs; ///< a program without which its members are not worth running; "": none
+    char *share; ///< stage up to whose end members share a sample; "": none
     int64_t realisations, quick_realisations;
     int64_t seed;
     bool quick;

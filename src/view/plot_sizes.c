@@ -7,6 +7,7 @@
 #include "io/file_names.h"
 #include "io/run_directory.h"
 #include "model/model.h"
+#include "shape/rounding.h"
 #include "view/chart.h"
 
 #include <math.h>
@@ -101,6 +102,8 @@ static double radius_of(const scree_snapshot *now, size_t i)
 {
     if (!now->corner_count || now->corner_count[i] == 0) return now->radius[i];
     const double(*corner)[2] = (const double(*)[2])(now->corner + now->first_corner[i]);
+    const double rounding = now->rounding ? now->rounding[i] : 0;
+    if (rounding > 0) return scree_rounding_measure((int)now->corner_count[i], corner, rounding).radius;
     double twice = 0;
     for (uint32_t k = 0; k < now->corner_count[i]; k++) {
         const double *a = corner[k], *b = corner[(k + 1) % now->corner_count[i]];

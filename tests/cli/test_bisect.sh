@@ -32,6 +32,17 @@ limit=$("$scree" get step limit) told=$("$scree" get step limit_step)
 holds "($limit / $told - 1)^2 < 0.005^2"
 exact=$(awk 'BEGIN { m = 2000 * 3.14159265358979 * 1e-6; print 2 / sqrt((2 + sqrt(2)) * 7e10 / m) }')
 holds "($told / $exact - 1)^2 < 1e-6^2"
+# --- a target: the friction that confines to a solid fraction, and a test that begins there
+"$scree" new biaxial | sed '/^quick:/,$d; /stage: compress/,/rate:/d; s/count: 2000/count: 60/; s/windows: .*/windows: []/
+    s/paraview: yes/paraview: no/; s/unbalanced_limit: 1e-3/unbalanced_limit: 1e-2/' >confine.yaml
+target=(bisect confine.yaml --key stages.confine.friction --from 0.01 --to 0.5 --measure solid_fraction --quiet --no-figures)
+expect 0 'solid_fraction is 0.8[0-9]* at .* --after find/runs/' "$scree" "${target[@]}" --target 0.83 --tolerance 0.003 -o find
+holds "($("$scree" get find solid_fraction) / 0.83 - 1)^2 <= 0.003^2"
+nearest=$(printf 'find/runs/%02d' "$("$scree" get find limit_nearest)")
+same "$("$scree" get "$nearest" solid_fraction)" "$("$scree" get find solid_fraction)" 'results are those of the nearest run'
+same "$("$scree" get "$nearest" confine_friction)" "$("$scree" get find limit)" 'and so is the value'
+expect 2 'is 0.8.* at the ends, .*: 0.95 is not between them' "$scree" "${target[@]}" --target 0.95 -o far
+expect 2 'target: a target goes without bounds' "$scree" "${target[@]}" --target 0.83 --below 1 -o bad
 holds "$("$scree" get step limit_stands) < $limit && $limit < $("$scree" get step limit_fails)"
 same "$(tail -n +2 step/bisection.csv | wc -l)" "$("$scree" get step limit_runs)" 'a row for each run'
 same "$("$scree" get step status)" done

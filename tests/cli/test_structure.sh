@@ -41,7 +41,11 @@ for law in "${laws[@]}"; do
 done
 mapfile -t modules < <(sed -nE '/define SCREE_(LAWS|GEOMETRIES|SHAPES|BOUNDARY_MODULES|SELECTION_MODULES|CASE_MODULES)/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
 [ ${#modules[@]} -ge 30 ] || complain "the rows of src/module/table.h were not found"
-mapfile -t makers < <(grep -rl 'scree_module_##[a-z]* = {' src) # files that make descriptors by a macro
+# Files that make descriptors by a macro, and those that include a header with one.
+mapfile -t makers < <(grep -rl 'scree_module_##[a-z]* = {' src)
+for maker in "${makers[@]}"; do
+    case $maker in *.h) mapfile -t -O ${#makers[@]} makers < <(grep -rlF "#include \"${maker#src/}\"" src --include='*.c') ;; esac
+done
 for name in "${modules[@]}"; do
     mapfile -t owner < <({ grep -rl "scree_module_$name = {" src; grep -lE "^[A-Z]+\($name, \"" "${makers[@]}"; } | sort -u)
     [ ${#owner[@]} -eq 1 ] || complain "module $name has ${#owner[@]} descriptors"

@@ -3,6 +3,7 @@ import ctypes
 import gc
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -15,6 +16,7 @@ except ImportError:
     print("skipped: NumPy is not installed (python3-numpy)")
     sys.exit(77)
 import scree
+from scree import _library
 from scree._library import find_program
 
 SOURCE, SCRATCH = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
@@ -322,6 +324,32 @@ class Folders(unittest.TestCase):
         self.assertGreater(len(scree.theory.lattice("square", stiffness_ratio=0.5)), 5)
         with self.assertRaises(scree.InputError):
             scree.theory.lattice("sqare")
+
+
+class Structs(unittest.TestCase):
+    def test_structs_are_those_of_the_headers(self):
+        """Size of each struct, and place of each of its members, as a compiler finds them in the headers."""
+        prints, expected = [], []
+        for name, struct in vars(_library).items():
+            if not (isinstance(struct, type) and issubclass(struct, ctypes.Structure)) or struct is ctypes.Structure:
+                continue
+            words = re.sub("(?<!^)(?=[A-Z])", "_", name.removesuffix("Struct")).lower()
+            c_name = "scree_" + ("theory_" if words.endswith("_of") else "") + words
+            prints.append(f'printf("{name} %zu\\n", sizeof({c_name}));')
+            expected.append(f"{name} {ctypes.sizeof(struct)}")
+            for member, _ in struct._fields_:
+                c_member = {"start": "from"}.get(member, member)
+                prints.append(f'printf("{name}.{member} %zu\\n", offsetof({c_name}, {c_member}));')
+                expected.append(f"{name}.{member} {getattr(struct, member).offset}")
+        self.assertGreater(len(expected), 100)
+        program = SCRATCH / "structs"
+        program.with_suffix(".c").write_text(
+            "#include <scree/scree.h>\n#include <stddef.h>\n#include <stdio.h>\n"
+            "int main(void)\n{\n" + "\n".join(prints) + "\n}\n")
+        subprocess.run([os.environ.get("CC", "cc"), f"-I{SOURCE}/include", program.with_suffix(".c"), "-o", program],
+                       check=True)
+        found = subprocess.run([program], check=True, capture_output=True, text=True).stdout.split("\n")[:-1]
+        self.assertEqual(found, expected)
 
 
 if __name__ == "__main__":

@@ -4,12 +4,21 @@
 
 #include "contact/laws.h"
 
-typedef enum law_choice { HERTZ_BRILLIANTOV, HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT, LINEAR } law_choice;
+typedef enum law_choice {
+    HERTZ_BRILLIANTOV,
+    HERTZ_MINDLIN,
+    HERTZ_BRILLIANTOV_IMPLICIT,
+    LINEAR,
+    HERTZ_JKR,
+    HERTZ_DMT
+} law_choice;
 
 /// Slot of its module.
 static inline int law_slot(law_choice law)
 {
     if (law == LINEAR) return SCREE_SLOT_linear;
+    if (law == HERTZ_JKR) return SCREE_SLOT_hertz_jkr;
+    if (law == HERTZ_DMT) return SCREE_SLOT_hertz_dmt;
     return law == HERTZ_MINDLIN ? SCREE_SLOT_hertz_mindlin : SCREE_SLOT_hertz_brilliantov;
 }
 
@@ -39,6 +48,17 @@ static inline scree_pair_constants hertz_pair(double normal, double tangential, 
                                    [SCREE_FRICTION] = friction,
                                    [HERTZ_DAMPING] = damping,
                                    [HERTZ_RATIO] = normal / tangential}};
+}
+
+/// Makes all pairs and walls of a model stick with B [m^(1/2)]; necks reach no further than those of radius [m].
+static inline void law_stick(scree_model *model, double root, double radius)
+{
+    for (int a = 0; a < 2; a++) {
+        model->walls[a].value[ADHESIVE_ROOT] = root;
+        for (int b = 0; b < 2; b++) model->pairs[a][b].value[ADHESIVE_ROOT] = root;
+    }
+    if (model->laws[0].law == SCREE_SLOT_hertz_jkr)
+        model->laws[0].number[SCREE_LAW_REACH] = 0.75 * root * cbrt(0.25 * root * radius);
 }
 
 /// k_n = normal [N/m] + by_radius [N/m2] R_eff, k_t = ratio k_n, damping ratios of both dashpots.

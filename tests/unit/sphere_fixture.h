@@ -57,6 +57,8 @@ static inline void sphere_run(fixture *f, int steps)
 static inline void sphere_resist_turning(fixture *f)
 {
     if (f->model.laws[0].law == SCREE_SLOT_hertz_mindlin) f->model.laws[0].option |= MINDLIN_ROLLING;
+    if (law_slot(HERTZ_JKR) == f->model.laws[0].law || law_slot(HERTZ_DMT) == f->model.laws[0].law)
+        f->model.laws[0].option |= ADHESIVE_ROLLING;
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
             f->model.pairs[a][b].value[HERTZ_ROLLING] = 0.1 + 0.05 * (a + b);

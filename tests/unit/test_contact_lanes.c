@@ -47,12 +47,16 @@ static void create(fixture *f, const variant *v)
 {
     const law_choice law = v->law == SCREE_SLOT_hertz_mindlin ? HERTZ_MINDLIN
                            : v->law == SCREE_SLOT_linear      ? LINEAR
+                           : v->law == SCREE_SLOT_hertz_jkr   ? HERTZ_JKR
+                           : v->law == SCREE_SLOT_hertz_dmt   ? HERTZ_DMT
                            : v->option == 0                   ? HERTZ_BRILLIANTOV
                                                               : HERTZ_BRILLIANTOV_IMPLICIT;
     if (v->dimension == 3)
         sphere_create_assembly(f, law, EDGE, v->many_materials ? 2 : 1, law_rolls(*v));
     else
         fixture_create_assembly(f, law, SIDE, v->many_materials ? 2 : 1);
+    // Necks as long as some of the gaps.
+    if (law == HERTZ_JKR || law == HERTZ_DMT) law_stick(&f->model, 4e-3, 1e-3);
 }
 
 /// Equal numbers; 0 and -0 are the same memory.
@@ -110,6 +114,13 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
             compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false, 0});
         for (int materials = 1; materials <= 2; materials++)
             compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger, false, 0});
+        for (unsigned option = MINDLIN_CONSTANT; option <= (MINDLIN_CONSTANT | MINDLIN_RESCALED); option++)
+            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false, 0});
+        for (int dimension = 2; dimension <= 3; dimension++)
+            for (unsigned option = 0; option <= (dimension == 3 ? ADHESIVE_CONSTANT : 0); option++) {
+                compare(&(variant){dimension, SCREE_SLOT_hertz_jkr, option, true, ledger, false, 0});
+                compare(&(variant){dimension, SCREE_SLOT_hertz_dmt, option, true, ledger, false, 0});
+            }
     }
 }
 

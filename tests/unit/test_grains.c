@@ -213,6 +213,65 @@ static void a_case_starts_from_a_file(void **unused)
     scree_case_free(c);
 }
 
+/// Runs a case of three grains into a folder; path of its run.h5.
+static const char *run_three(const char *name)
+{
+    static char path[PATH_MAX];
+    char text[4000];
+    const char *grains =
+        write_file("three.csv", "x [mm],y [mm],radius [mm],vx,vy,spin,angle,material\n"
+                                "1.5,1.1,1,0.1,0,3,0.5,sand\n4,1,0.5,0,0.25,0,0,clay\n6,2,0.75,-0.2,0.1,0,1,2\n");
+    (void)snprintf(text, sizeof text,
+                   HEAD SIZES OUT "stages:\n- {stage: prepare, method: file, file: %s, width: 8 mm, height: 4 mm}\n"
+                                  "- {stage: relax, duration: 1 us, boundary: plates}\n",
+                   grains);
+    scree_case *c = case_read(text, NULL, 0);
+    (void)snprintf(path, sizeof path, "%s/%s", scratch, name);
+    const scree_run_options options = {.output = path, .threads = 1};
+    scree_error error;
+    check(scree_run(c, &options, &error), &error);
+    scree_case_free(c);
+    (void)snprintf(path, sizeof path, "%s/%s/run.h5", scratch, name);
+    return path;
+}
+
+static void snapshots_of_runs(void **unused)
+{
+    (void)unused;
+    scree_grains g;
+    scree_error error;
+    const char *path = run_three("three");
+    check(scree_grains_read(path, &plain, &g, &error), &error);
+    assert_string_equal(g.format, "run");
+    assert_int_equal(g.count, 3);
+    assert_int_equal(g.kinds, 2);
+    assert_string_equal(g.kind_name[g.kind[0]], "sand");
+    assert_string_equal(g.kind_name[g.kind[1]], "clay");
+    for (size_t i = 0; i < 3; i++) { // 1 us later
+        static const double at[3][2] = {{1.5e-3, 1.1e-3}, {4e-3, 1e-3}, {6e-3, 2e-3}},
+                            v[3][2] = {{0.1, 0}, {0, 0.25}, {-0.2, 0.1}}, r[] = {1e-3, 0.5e-3, 0.75e-3},
+                            angle[] = {0.5, 0, 1};
+        for (int k = 0; k < 2; k++) {
+            assert_true(fabs(g.column[SCREE_GRAIN_X + k][i] - at[i][k] - 1e-6 * v[i][k]) < 1e-12);
+            assert_true(fabs(g.column[SCREE_GRAIN_VX + k][i] - v[i][k]) < 1e-12);
+        }
+        assert_true(fabs(g.column[SCREE_GRAIN_RADIUS][i] - r[i]) < 1e-18);
+        assert_true(fabs(g.column[SCREE_GRAIN_ANGLE][i] - angle[i]) < 1e-5);
+    }
+    assert_true(fabs(g.column[SCREE_GRAIN_WZ][0] - 3) < 1e-12 && !g.column[SCREE_GRAIN_Z] && !g.bounded);
+    scree_grains_destroy(&g);
+    scree_grains_options first = plain;
+    first.frame = 0; // as it was prepared
+    check(scree_grains_read(path, &first, &g, &error), &error);
+    assert_true(g.column[SCREE_GRAIN_X][0] == 1.5e-3);
+    scree_grains_destroy(&g);
+    first.frame = 99;
+    assert_int_equal(scree_grains_read(path, &first, &g, &error), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "there is no snapshot 99"));
+    first.format = "run";
+    assert_int_equal(scree_grains_read(write_file("text", "x,y\n1,2\n"), &first, &g, &error), SCREE_ERROR_IO);
+}
+
 /// That one of the problems of a case says `message`.
 static void expect_case_refused(const char *text, const char *const *overrides, size_t count, const char *message)
 {
@@ -300,7 +359,7 @@ int main(void)
         cmocka_unit_test(data_files_of_lammps),        cmocka_unit_test(exports_of_yade),
         cmocka_unit_test(what_is_wrong_is_shown),      cmocka_unit_test(overlaps_are_found),
         cmocka_unit_test(a_case_starts_from_a_file),   cmocka_unit_test(cases_are_checked),
-        cmocka_unit_test(gradings_stand_in_files),
+        cmocka_unit_test(gradings_stand_in_files),     cmocka_unit_test(snapshots_of_runs),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

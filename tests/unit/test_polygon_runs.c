@@ -362,7 +362,7 @@ static void what_does_not_go_together_is_refused(void **unused)
 {
     (void)unused;
     static const char *const wrong[][2] = {
-        {"contact.law=linear", "has no meaning for particles of these shapes; those that may are: polygon_overlap"},
+        {"contact.law=linear", "sharp corners: give particles.rounding (0.1, say), or take one of the laws of areas: polygon_overlap"},
         {"particles.corners_max=5", "less than corners_min"},
         {"particles.corners_min=2", "too small"},
         {"particles.axis_ratio=0.9", "too small"},

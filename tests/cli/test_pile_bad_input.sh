@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# What is wrong with cases of polygons and piles is said as a user would want it: the place in the file, the key, what is
+# wrong and what to do, with the right exit status, before anything is computed or with a run directory that can be read.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+
+"$scree" new pile-point >good.yaml
+outline=$(grep -n 'outline: ellipse' good.yaml | cut -d: -f1)
+corners=$((outline + 1))
+
+# given CORNERS PATTERN: these corners in place of the ellipse.
+given() {
+    sed "s|outline: ellipse.*|outline: given\n  corners: $1|" good.yaml >bad.yaml
+    expect 2 "$2" "$scree" check bad.yaml
+}
+here="^bad\.yaml:$corners:12: particles\.corners: "
+
+# Outlines.
+given '[[0,0],[3,0],[1,1],[0,3]]' "${here}the polygon is not convex at corner 2 .*only convex polygons"
+given '[[0,0],[0,1],[1,1]]' "${here}the corners go clockwise .*list them in the opposite order"
+given '[[0,0],[1,0],[1,0],[0,1]]' "${here}corners 1 and 2 .* are the same.*leave one out"
+given '[[0,0],[1,0],[2,0],[0,1]]' "${here}corner 1 .*lies on the line through its neighbours.*leave it out, or move it"
+given '[[0,0],[1,0]]' "${here}a polygon has 3 to 32 corners, not 2"
+given '[[0,0],[1,1],[1,0],[0,1]]' "${here}the outline crosses itself: the edges that begin at corners 0 and 2"
+given '[[0,1],[0.588,-0.809],[-0.951,0.309],[0.951,0.309],[-0.588,-0.809]]' "${here}the outline crosses itself"
+given '[[0,0],[.nan,0],[0,1]]' "^bad\.yaml:$corners:20: particles\.corners: '\.nan' is not a number"
+same "$(grep -c . <<<"$output")" 1 "one problem, one message"
+given '[[0,0],[a,0],[0,1]]' "^bad\.yaml:$corners:20: particles\.corners: 'a' is not a number"
+given '[[0,0,1],[1,0],[0,1]]' "^bad\.yaml:$corners:13: particles\.corners: expected a pair of values"
+
+# A thousand corners, in the case and in a file.
+awk 'BEGIN { print "x,y"; for (k = 0; k < 1000; k++) printf "%.6f,%.6f\n", cos(k * 0.0062831853), sin(k * 0.0062831853) }' >thousand.csv
+given thousand.csv "${here}a polygon has 3 to 32 corners, not 1000"
+given "[$(tail -n +2 thousand.csv | sed 's/.*/[&]/' | paste -sd,)]" 'this line has more than 4096 bytes.*several lines, or into a \.csv file'
+
+# Files of corners.
+given nowhere.csv "${here}the file of this table cannot be used: No such file"
+mkdir folder.csv
+given folder.csv "${here}the file of this table cannot be used: it is not a file"
+printf 'x,y\n0,0\n1,zz\n0,1\n' >corners.csv
+given corners.csv "^corners\.csv:3:3: particles\.corners: 'zz' is not a number"
+printf 'x,y\n0,0\n1\n0,1\n' >corners.csv
+given corners.csv '^corners\.csv:3:1: particles\.corners: expected a pair of values'
+printf 'x,y\n0,0\nnan,0\n0,1\n' >corners.csv
+given corners.csv "^corners\.csv:3:1: particles\.corners: 'nan' is not a number"
+printf '\0\1\2x,y\n' >corners.csv
+given corners.csv '^corners\.csv: particles\.corners: this is not a text file'
+: >corners.csv
+given corners.csv "${here}a polygon has 3 to 32 corners, not 0"
+
+# changed SED PATTERN: the case with this change is refused.
+changed() {
+    sed "$1" good.yaml >bad.yaml
+    expect 2 "$2" "$scree" check bad.yaml
+}
+changed 's/outline: ellipse.*/&\n  axis_ratio: 0.5/' "particles\.axis_ratio: '0\.5' is too small .accepted: 1 to 20"
+changed 's/radius_min: .*/radius_min: 0 mm/' "particles\.radius_min: '0 mm' is too small"
+changed 's/radius_min: .*/radius_min: -1 mm/' "particles\.radius_min: '-1 mm' is too small"
+changed 's/radius_min: .*/radius_min: 5 mm/' "particles\.radius_min: '5 mm' is larger than radius_max"
+changed 's/^dimension: 2/dimension: 3/' 'particles\.shape: polygons are bodies in the plane: dimension: 2'
+changed 's/law: polygon_overlap/law: hertz_mindlin/; /damping_constant/d' 'contact\.law: law hertz_mindlin has no meaning for polygons with sharp corners: give particles\.rounding .*polygon_overlap, polygon_potential'
+changed 's/corners_min: 6/&\n  rounding: 0.1/' 'particles\.rounding: law polygon_overlap .*leave rounding out, or take contact\.law .*linear'
+changed 's/corners_min: 6/&\n  rounding: 1/' "particles\.rounding: '1' is too large .accepted: 0 to 0\.9"
+changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary: membrane' 'stages\.2\.boundary: in a case with walls only relax can follow: the other stages need plates'
+changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: sources do not pour into a sample that repeats itself: leave boundary\.periodic out'
+changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
+changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'
+
+# Grains that find no room, and what only a run can know.
+small=(--quick --set particles.count=6 --no-figures --set output.paraview=no)
+sed 's/^sources:/  - {shape: box, name: cage, lower: [-1 mm, -5 mm], upper: [1 mm, 60 cm]}\nsources:/' good.yaml >bad.yaml
+expect 2 "sources\.0: source 'spout' is in wall 'cage'.*the smallest particle has the radius.*move the source or the wall" \
+    "$scree" run bad.yaml "${small[@]}" -o caged
+sed 's/place: \[0, 25 cm\]/place: [0, 1 mm]/; s/sources.spout.place: .*/sources.spout.place: [0, 1 mm]/' good.yaml >bad.yaml
+expect 2 "^bad\.yaml:[0-9]+:5: sources\.0: source 'spout' is in wall 'plate'.*move the source or the wall" \
+    "$scree" run bad.yaml "${small[@]}" -o inside
+sed 's/shape: plane/shape: polygon/; s/^    point: .*/    corners: [[-6 mm, -1 cm], [6 mm, -1 cm], [6 mm, 0], [-6 mm, 0]]/; /normal: /d
+    s/sources.spout.place: .*/sources.spout.place: [0, 2 cm]/' good.yaml >bad.yaml
+expect 3 'has fallen past everything that stands: .*make the plate wider, pour fewer particles, or give stages\.1\.past' \
+    "$scree" run bad.yaml "${small[@]}" -o past
+expect 0 'stopped' "$scree" get past status
+sed 's/sources.spout.place: .*/sources.spout.place: [0, 8 mm]/; s/  - stage: pour/&\n    patience: 50 ms/' good.yaml >bad.yaml
+expect 3 "source 'spout' has been blocked .*raise the source, pour fewer particles, or let it stay .above. the pile" \
+    "$scree" run bad.yaml "${small[@]}" -o blocked
+expect 0 'stopped' "$scree" get blocked status
+expect 0 '' "$scree" run bad.yaml "${small[@]}" --set sources.spout.place='[0, 10 cm]' --set particles.count=1 --quiet --set stages.settle.duration='1 ms' -o fine
+
+# A polygon larger than its domain, and one that strikes too hard.
+cat >big.yaml <<'CASE'
+scree: 1
+name: big
+dimension: 2
+gravity: [0, -10]
+materials:
+  - {name: stone, young_modulus: 1e7 Pa, density: 2500 kg/m3, friction: 0.5}
+particles: {shape: polygon, thickness: 1 m, material: stone, count: 1, distribution: equal, radius: 5 cm}
+contact: {law: polygon_potential}
+integrator: {step: 1e-6 s}
+walls:
+  - {shape: box, name: vessel, lower: [0, 0], upper: [4 cm, 4 cm]}
+stages:
+  - {stage: prepare, method: bodies, width: 4 cm, height: 4 cm, bodies: [{position: [2 cm, 2 cm]}]}
+  - {stage: relax, boundary: walls, duration: 0.01 s}
+CASE
+expect 2 "particle 0 at .* is in wall 'vessel'.*move the wall" "$scree" run big.yaml --no-figures -o big
+sed 's/method: bodies.*}/method: gas, width: 4 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
+expect 2 "^bad\.yaml:13:[0-9]+: stages\.0\.width: .*does not fit into a box 0\.04 m wide" "$scree" check bad.yaml
+sed 's/radius: 5 cm/radius: 1 cm/; s/young_modulus: 1e7/young_modulus: 1e4/; s/\[{position: \[2 cm, 2 cm\]}\]/[{position: [2 cm, 2 cm], velocity: [0, -20]}]/; s/step: 1e-6/step: 1e-5/' big.yaml >bad.yaml
+expect 3 'particle 0 at .*guard\.overlap.*try a stiffer material' "$scree" run bad.yaml --no-figures -o deep
+expect 0 'stopped' "$scree" get deep status
+
+finish
