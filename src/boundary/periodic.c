@@ -38,8 +38,13 @@
 /// needs past twelve grains, without overshoot (all roots of the linear response are real). The dashpot resists changes
 /// of L, not a lasting rate: a sample that dilates or contracts steadily keeps its stress. Far below the wanted stress,
 /// where nothing would limit the rate of a loose sample, it resists the rate itself, with a tenth of Z. It is taken
-/// implicitly. sigma is the whole stress at n. a from the Hertz stiffness at the mean contact force, as there; the gain
-/// of the case divides Z.
+/// implicitly. In a fast flow stresses change within the time of the servo: dilatancy that grows by psi in a strain
+/// gamma leaves an error of (I + Z T) psi L_xy^2 / gamma, some 100 psi I^2 / gamma of the stress at the inertial number
+/// I = L_xy d sqrt(rho / p). So the times of the servo, and with them the square root of its inertia, shrink like
+/// SLOW_FLOW / I (a barostat with the mass of Andersen 1980 that follows the flow; all roots stay real), down to what
+/// the step resolves. Periodic-shear of 250 discs: mean stress 0.9996 of the wanted, rms 4 %, largest 1.11 at I = 0.28;
+/// 0.76, 37 % and 5.5 before. sigma is the whole stress at n. a from the Hertz stiffness at the mean contact force, as
+/// there; the gain of the case divides Z.
 ///
 /// Cost: two passes over the bodies a step in a deforming cell, one in a cell at rest. Limits: a cell that is not
 /// periodic in all directions does not deform.
@@ -59,8 +64,11 @@
 #define CREEP_GRAINS     5.0  // grains that a wave passes in the creep time of the servo
 #define MEAN_GRAINS      20.0 // the same in the time of the running mean
 #define LEAST_RESISTANCE 0.1
-#define CHECKED          16   // steps between two looks for bodies that have left the cell
-#define LEAN_LIMIT       0.51 // of a lattice vector over another: a little above half, where two lattices are as good
+#define SLOW_FLOW        0.005 // inertial number up to which the times of the servo are these
+#define QUICKEST         0.05  // share of them that is never gone below
+#define STEP_SHARE       1.5   // nor this times the step over the time in which a wave passes a grain
+#define CHECKED          16    // steps between two looks for bodies that have left the cell
+#define LEAN_LIMIT       0.51  // of a lattice vector over another: a little above half, where two lattices are as good
 
 static bool deforms(const scree_periodic_cell *cell)
 {
@@ -118,15 +126,28 @@ void scree_periodic_fit(const scree_model *model, scree_state *state, double pre
     cell->limit = fmin(model->servo.velocity, model->servo.travel / state->step_size) / mean_width(state);
 }
 
-/// One step of the servo of a component.
-static void hold_stress(const scree_periodic_cell *cell, double dt, double wanted, double stress, double *rate,
-                        double *drift)
+/// Share of its times that the servo takes beside a flow: 1 in a slow one.
+static double quickness(const scree_periodic_cell *cell, double dt, const scree_periodic_demand *wanted)
+{
+    double rate = 0, stress = 0, least = fmax(QUICKEST, STEP_SHARE * dt * cell->damping);
+    for (int k = 0; k < 9; k++) {
+        if (isnan(wanted->stress[k])) rate = fmax(rate, fabs(wanted->rate[k]));
+        if (k % 4 == 0 && !isnan(wanted->stress[k])) stress = fmax(stress, fabs(wanted->stress[k]));
+    }
+    double inertial = rate * sqrt(cell->inertia / CREEP_GRAINS / stress);
+    return inertial > SLOW_FLOW ? fmin(1, fmax(least, SLOW_FLOW / inertial)) : 1;
+}
+
+/// One step of the servo of a component, whose times are this share of their own.
+static void hold_stress(const scree_periodic_cell *cell, double dt, double share, double wanted, double stress,
+                        double *rate, double *drift)
 {
     double reached = fmin(1, fabs(stress / wanted));
-    double resistance = dt * cell->damping * fmax(LEAST_RESISTANCE, reached);
-    double next = (*rate + dt / cell->inertia * (wanted - stress) + resistance * reached * *drift) / (1 + resistance);
+    double resistance = dt * (cell->damping / share) * fmax(LEAST_RESISTANCE, reached);
+    double pull = dt / (cell->inertia * (share * share)) * (wanted - stress);
+    double next = (*rate + pull + resistance * reached * *drift) / (1 + resistance);
     *rate = fmax(-cell->limit, fmin(cell->limit, next));
-    *drift += dt * cell->damping / MEAN_GRAINS * (*rate - *drift);
+    *drift += dt * (cell->damping / share) / MEAN_GRAINS * (*rate - *drift);
 }
 
 void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_demand *wanted,
@@ -135,11 +156,13 @@ void scree_periodic_control(const scree_model *model, scree_state *state, const 
     scree_periodic_cell *cell = scree_cell(state);
     double stress[9];
     scree_periodic_stress(model, state, stress);
+    const double share = quickness(cell, state->step_size, wanted);
     for (int k = 0; k < 9; k++) {
         if (isnan(wanted->stress[k]))
             cell->gradient[k] = cell->drift[k] = wanted->rate[k] * rise;
         else
-            hold_stress(cell, state->step_size, wanted->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
+            hold_stress(cell, state->step_size, share, wanted->stress[k], stress[k], &cell->gradient[k],
+                        &cell->drift[k]);
     }
 }
 

@@ -85,6 +85,11 @@ static void deform(const scree_context *c, const scree_demand *demand, double ri
     scree_periodic_control(c->model, c->state, &wanted, rise);
 }
 
+static void stress(const scree_context *c, double tensor[9])
+{
+    scree_periodic_stress(c->model, c->state, tensor);
+}
+
 static double stress_error(const scree_context *c, double pressure, const char **what)
 {
     scree_periodic_cell *cell = scree_cell(c->state);
@@ -112,6 +117,7 @@ static const scree_boundary face = {
     .hold = hold,
     .compress = compress,
     .deform = deform,
+    .stress = stress,
     .stress_error = stress_error,
     .stress_tolerance = 0.002,
     .patience = 1000,

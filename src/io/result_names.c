@@ -50,7 +50,7 @@ const scree_result scree_run_results[] = {
     // the last loading stage
     {"axial_strain", "1", "axial strain reached"},
     {"shear_strain_reached", "1", "engineering shear strain reached"},
-    {"peak_stress_ratio", "1", "largest running mean of the stress ratio"},
+    {"peak_stress_ratio", "1", "largest mean of the stress ratio over 1 % of strain, running"},
     {"strain_at_peak", "1", "axial strain there"},
     {"final_stress_ratio", "1", "mean over the last fifth of the strain"},
     {"rate_ratio_mean", "1", "mean of actual over imposed rate"},

@@ -69,6 +69,8 @@ typedef struct scree_boundary {
     void (*compress)(const scree_context *context, const struct scree_compression *compression);
     /// In the coming step: `rise` of the rates of a demand, under the pressure where nothing is prescribed.
     void (*deform)(const scree_context *context, const struct scree_demand *demand, double rise);
+    /// Stress of the sample as the boundary knows it at the present step [Pa, tension positive]. NULL: it does not.
+    void (*stress)(const scree_context *context, double stress[9]);
     /// How far the stress is from `pressure`, relative to it, since the last call; *what: which stress.
     double (*stress_error)(const scree_context *context, double pressure, const char **what);
     double stress_tolerance; ///< 1, of it, unless the case says so

@@ -44,16 +44,16 @@
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(gear) row(drop_and_roll) row(hexagonal)          \
         row(square) row(centred_rectangular) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth)       \
             row(dense) row(pair) row(bodies) row(file) row(empty) row(prepare) row(confine) row(compress) row(deform)  \
-                row(rotate_particle) row(relax) row(iterate) row(collide) row(bond) row(pour) row(point) row(line)     \
-                    row(region) row(background_damping) row(prescribed) row(outlet) row(plane) row(box) row(cylinder)  \
-                        row(cone) row(mesh) row(wall_polygon) row(uniform) row(two_sizes) row(equal) row(normal)       \
-                            row(log_normal) row(power_law) row(table) row(grading)
+                row(load_path) row(rotate_particle) row(relax) row(iterate) row(collide) row(bond) row(pour)           \
+                    row(point) row(line) row(region) row(background_damping) row(prescribed) row(outlet) row(plane)    \
+                        row(box) row(cylinder) row(cone) row(mesh) row(wall_polygon) row(uniform) row(two_sizes)       \
+                            row(equal) row(normal) row(log_normal) row(power_law) row(table) row(grading)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \
     row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
-        row(slopes) row(pile) row(increments) row(response) row(finite_elements) row(orientation) row(outflow)         \
-            row(surface) row(loading_curves) row(window_bands)
+        row(slopes) row(pile) row(increments) row(response) row(finite_elements) row(orientation) row(stress_path)     \
+            row(outflow) row(surface) row(loading_curves) row(window_bands)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

@@ -169,6 +169,7 @@ static double ticks_left(const scree_simulation *s)
 {
     if (!s->plan.expected) return NAN;
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
+    if (left < 0) return NAN; // stresses end it
     for (int64_t k = s->state.stage.index + 1; k < s->model.stage_count; k++) {
         const scree_config_stage *stage = &s->model.stages[k];
         double (*duration)(const scree_model *model, const void *own) = scree_modules[stage->kind]->stage->duration;

@@ -1,10 +1,10 @@
 /// The named scalars of summary.json, computed from the whole series.
 ///
 /// Over the loading stage (io/loading_stage.h), whatever comes after it: peak of the stress ratio and its strain; mean
-/// stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin of loading
-/// (dilation positive), and their strains; mean slip, and that of the begin, up to a strain of INITIAL without the
-/// sample at rest (`initial_slip_ratio`); disagreement of the axial stress of plates and contacts, of the means over
-/// the stage
+/// stress ratio over the last fifth of the strain (both not of a periodic cell that is sheared); largest compaction and
+/// dilation relative to the begin of loading (dilation positive), and their strains; mean slip, and that of the begin,
+/// up to a strain of INITIAL without the sample at rest (`initial_slip_ratio`); disagreement of the axial stress of
+/// plates and contacts, of the means over the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
 /// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
@@ -34,7 +34,7 @@
 
 /// The rows of the loading stage.
 typedef struct loading {
-    const double *time, *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear;
+    const double *time, *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear, *axial;
     size_t first, last; ///< rows [first, last)
 } loading;
 
@@ -52,6 +52,7 @@ static bool find_loading(const scree_series *series, loading *l)
                    .coordination = scree_series_get(series, "coordination"),
                    .rate = scree_series_get(series, "rate_ratio"),
                    .shear = scree_series_get(series, "boundary_shear_strain"),
+                   .axial = scree_series_get(series, "boundary_axial_strain"),
                    .first = rows.first,
                    .last = rows.last};
     return l->last - l->first > 1;
@@ -113,7 +114,13 @@ static void summarise_volume(const loading *l, const scree_series *series, scree
     scree_summary_set_number(summary, "max_volumetric_dilation_solid", dilation);
 }
 
-static void summarise_loading(const loading *l, scree_summary *summary)
+/// A periodic cell that is sheared: axial over lateral stress says nothing of it, mu does (run/stress_path.c).
+static bool is_sheared_cell(const loading *l, const scree_state *state)
+{
+    return scree_periodic_is_whole(state) && fabs(l->shear[l->last - 1]) > 2 * fabs(l->axial[l->last - 1]);
+}
+
+static void summarise_loading(const loading *l, const scree_state *state, scree_summary *summary)
 {
     double compaction = 0, dilation = 0, strain_at_compaction = NAN, strain_at_dilation = NAN;
     double slip = 0, plates = 0, contacts = 0, apart = 0;
@@ -134,7 +141,7 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     }
     scree_summary_set_number(summary, "axial_strain", l->strain[l->last - 1]);
     scree_summary_set_number(summary, "shear_strain_reached", fabs(l->shear[l->last - 1]));
-    summarise_peak(l, summary);
+    if (!is_sheared_cell(l, state)) summarise_peak(l, summary);
     summarise_rate(l, summary);
     scree_summary_set_number(summary, "max_volumetric_compaction", compaction);
     scree_summary_set_number(summary, "max_volumetric_dilation", dilation);
@@ -192,11 +199,11 @@ static scree_status summarise_energy(const scree_series *series, scree_simulatio
     return SCREE_OK;
 }
 
-static void summarise_series(const scree_series *series, scree_summary *summary)
+static void summarise_series(const scree_series *series, const scree_state *state, scree_summary *summary)
 {
     loading l;
     if (find_loading(series, &l)) {
-        summarise_loading(&l, summary);
+        summarise_loading(&l, state, summary);
         summarise_volume(&l, series, summary);
     }
     if (series->row_count == 0) return;
@@ -309,7 +316,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
     if (!status) {
         summarise_run(recorder, s, *summary);
         summarise_start(&series, &s->model, *summary);
-        summarise_series(&series, *summary);
+        summarise_series(&series, &s->state, *summary);
         scree_summary_set_number(*summary, "stiffness_share", scree_results_stiffness_share(&s->state));
         scree_quasistatic_results(&s->model, &series, *summary);
         status = summarise_energy(&series, s, *summary, error);

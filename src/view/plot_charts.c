@@ -48,7 +48,7 @@ static const chart_row rows[] = {
      "Slip at contacts", "mean slip speed / v_R (1)", false, false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
     {{"stress", "axial and lateral stress, applied and from contacts"},
-     "Stress, applied and from contacts", "stress (@Pa), compression positive", false, false, {
+     "Stress, applied (lateral: without friction of the plates) and from contacts", "stress (@Pa), compression positive", false, false, {
         {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
