@@ -285,6 +285,12 @@ bool scree_root_read(scree_reader *reader, const scree_section *section, void *b
 
 void scree_config_read(scree_reader *reader, scree_config *config)
 {
+    if (!scree_schema_is_whole()) {
+        scree_problem_add(reader, reader->root->place, NULL, NULL, NULL,
+                          "this build of scree cannot read cases: the arrays of its schema are too short "
+                          "(src/case/schema_build.c, MOST_KEYS to ALL_TEXT)");
+        return;
+    }
     // Where memory ran out, what is tied together need not be there.
     if (scree_root_read(reader, scree_schema(), config) && !reader->failure.status) scree_rules_check(reader, config);
 }

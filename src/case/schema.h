@@ -15,6 +15,9 @@ const scree_section *scree_schema(void);
 /// What the core declares, to be put together with what modules declare.
 extern const scree_section scree_schema_core;
 
+/// Whether all that is declared has found room in the schema.
+bool scree_schema_is_whole(void);
+
 const scree_key *scree_section_find(const scree_section *section, const char *name, size_t length);
 
 /// The choice called `text`, or NULL.

@@ -13,6 +13,7 @@
 /// are left out. Cost: that of the solve, once, at the end.
 #include "base/memory.h"
 #include "case/check.h"
+#include "comm/comm.h"
 #include "contact/deformation.h"
 #include "fem/solid.h"
 #include "io/file_names.h"
@@ -192,9 +193,10 @@ static scree_status loading_make(const scree_elastic_curves *of, loading *l, scr
 
 static double mean_density(const scree_simulation *s, double volume)
 {
-    double mass = 0;
-    for (size_t row = 0; row < s->state.count; row++) mass += scree_body_mass(&s->state, row);
-    return mass / volume;
+    scree_integer_sum mass = {0};
+    while (scree_comm_sum_next(&s->state, &mass, 1))
+        for (size_t row = 0; row < s->state.count; row++) scree_integer_sum_add(&mass, scree_body_mass(&s->state, row));
+    return scree_integer_sum_total(&mass) / volume;
 }
 
 static scree_status compare_bar(const scree_conclusion *run, const scree_elastic_curves *of, const loading *l,

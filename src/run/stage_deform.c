@@ -162,7 +162,7 @@ static const char *wrong(const scree_config *whole, int64_t index, const char **
     const double *full = stage->velocity_gradient, *symmetric = stage->strain_rate;
     double largest = 0;
     *key = "stage";
-    if (!boundary->deform)
+    if (!boundary->deform || boundary->walls) // between plates: stage load_path
         return "only a cell that is periodic in all directions can be deformed: set boundary.periodic";
     for (int c = 0; c < 9; c++) {
         int mirror = 3 * (c % 3) + c / 3;

@@ -52,9 +52,9 @@ static const scree_choice rates[] = {
     {"xx", 0, "strain rate along x"},
     {"yy", 4, "strain rate along y"},
     {"zz", 8, "strain rate along z"},
-    {"xy", 1, "dv_x/dy"},
-    {"xz", 2, "dv_x/dz"},
-    {"yz", 5, "dv_y/dz"},
+    {"xy", 1, "shear rate dv_x/dy"},
+    {"xz", 2, "shear rate dv_x/dz"},
+    {"yz", 5, "shear rate dv_y/dz"},
     {0},
 };
 static const scree_choice stresses[] = {

@@ -15,6 +15,7 @@
 /// the mean counts n / tau samples, tau = 1 + 2 sum of the autocorrelation up to its first value that is not positive;
 /// mu_error is 1.96 of them. Cost: O(contacts) a sample; rows times the lags of the autocorrelation at the end.
 #include "average/tensor.h"
+#include "comm/comm.h"
 #include "io/loading_stage.h"
 #include "measure/measure.h"
 #include "model/model.h"
@@ -153,13 +154,15 @@ static void add_contact(const scree_state *state, const scree_contact *contact, 
 static void sample_fabric(const scree_context *c, double *value)
 {
     const scree_state *state = c->state;
-    double tensor[9] = {0}, solid = 0;
+    double tensor[9] = {0};
+    scree_integer_sum solid = {0}; // rows have another order after a restart
     for (size_t k = 0; k < c->table->count; k++)
         if (!scree_contact_is_outer(&c->table->contact[k])) add_contact(state, &c->table->contact[k], tensor);
-    for (size_t row = 0; row < state->count; row++)
-        if (scree_body_is_grain(state, row)) solid += scree_body_volume(state, row);
+    while (scree_comm_sum_next(state, &solid, 1))
+        for (size_t row = 0; row < state->count; row++)
+            if (scree_body_is_grain(state, row)) scree_integer_sum_add(&solid, scree_body_volume(state, row));
     const double trace = tensor[0] + tensor[4] + tensor[8];
-    value[FABRIC_TRACE] = trace * value[FABRIC_TRACE] / solid;
+    value[FABRIC_TRACE] = trace * value[FABRIC_TRACE] / scree_integer_sum_total(&solid);
     value[FABRIC_DEVIATOR] = value[FABRIC_DIRECTION] = NAN;
     if (!(trace > 0)) return;
     double principal[3], axis[9];

@@ -12,6 +12,7 @@
 /// (measure/blocks.h). Limits: the surface of spheres lies some 0.1 d above their outermost layer's mean; neither angle
 /// is moved by that. Cost: linear in contacts and bodies, at each sample.
 #include "case/check.h"
+#include "comm/comm.h"
 #include "measure/blocks.h"
 #include "measure/pile.h"
 #include "model/measure_keys.h"
@@ -102,16 +103,17 @@ static double slope_of(const scree_pile *pile)
 /// The axis: centre of mass of the pile.
 static void find_axis(const scree_state *state, const scree_pile *pile, double axis[2])
 {
-    double mass = 0;
-    axis[0] = axis[1] = 0;
-    for (size_t row = 0; row < state->count; row++) {
-        scree_vector place;
-        if (!pile->member[row]) continue;
-        scree_body_position(state, row, place);
-        mass += state->row[row].mass;
-        for (int k = 0; k < 2; k++) axis[k] += state->row[row].mass * place[k];
-    }
-    for (int k = 0; k < 2; k++) axis[k] /= mass;
+    scree_integer_sum sum[3] = {0}; // mass, its moments
+    while (scree_comm_sum_next(state, sum, 3))
+        for (size_t row = 0; row < state->count; row++) {
+            scree_vector place;
+            if (!pile->member[row]) continue;
+            scree_body_position(state, row, place);
+            scree_integer_sum_add(&sum[0], state->row[row].mass);
+            for (int k = 0; k < 2; k++) scree_integer_sum_add(&sum[1 + k], state->row[row].mass * place[k]);
+        }
+    const double mass = scree_integer_sum_total(&sum[0]);
+    for (int k = 0; k < 2; k++) axis[k] = scree_integer_sum_total(&sum[1 + k]) / mass;
 }
 
 /// Columns over the ground, a mean diameter wide, and the highest grain in each.

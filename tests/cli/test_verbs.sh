@@ -47,7 +47,7 @@ same "$(complete_line scree new biaxial-b)" biaxial-boundaries
 same "$(complete_line scree help --com)" --completion
 touch some.yaml other.txt
 same "$(complete_line scree check s)" some.yaml
-same "$(complete_line scree check o)" ''
+same "$(complete_line scree check ot)" ''
 
 # --- list, new, check
 expect 0 '^biaxial +[A-Z]' "$scree" list
