@@ -24,12 +24,23 @@ bool scree_rotation_counts(const scree_state *state, size_t row);
 /// Mean amount of the bodies that count, the forced one left out: what turns without forcing, when nothing is forced.
 double scree_rotation_mean_amount(const scree_state *state, size_t forced);
 
+/// What there is without forcing, over the forced rotation; NAN: not known.
+typedef struct scree_rotation_background {
+    double mean;                       ///< 1, of all bodies that count
+    double shell[SCREE_ROTATION_BINS]; ///< 1, of those in the shells of scree_rotation_decay
+} scree_rotation_background;
+
+/// The same of a state in which nothing is forced, over `scale`, which has the unit of an amount.
+void scree_rotation_background_measure(const scree_model *model, const scree_state *state, size_t forced, double scale,
+                                       scree_rotation_background *background);
+
 /// Bodies whose distance from the forced one lies in [lower, lower + width).
 typedef struct scree_rotation_bin {
     double lower;          ///< mean diameters
     double distance;       ///< mean diameters, mean of the bodies'
     double mean;           ///< 1, of the amount of rotation over that of the forced body
     double standard_error; ///< 1, of the mean; NAN with fewer than two bodies
+    double felt;           ///< 1, the least mean that is felt
     size_t count;
 } scree_rotation_bin;
 
@@ -39,7 +50,7 @@ typedef struct scree_rotation_decay {
     scree_rotation_bin bin[SCREE_ROTATION_BINS];
     size_t bin_count;
     double bin_width, first;        ///< mean diameters: of all bins; where the first one begins
-    double limit;                   ///< 1, rotation over that of the forced body that is still felt
+    double limit;                   ///< 1, rotation over that of the forced body that a body feels
     double amplitude;               ///< 1; NAN when there is nothing to fit
     double length;                  ///< mean diameters
     double length_low, length_high; ///< mean diameters, ends of the interval; NAN with fewer than three bins
@@ -48,14 +59,15 @@ typedef struct scree_rotation_decay {
 } scree_rotation_decay;
 
 /// Shells of one mean diameter around the forced body, the first from half a diameter on (its neighbours), of the
-/// bodies that count. Felt is a mean rotation of at least FLOOR_FACTOR times both `background` (what there is without
-/// forcing, over the forced one; NAN: not known) and the median over the outer half of the shells (what the sample does
-/// as a whole). Reach: the outer edge of the last shell of the unbroken run that feels it. The fit over this run is
+/// bodies that count. A shell feels the forced body where its mean is at least FLOOR_FACTOR times both the background
+/// (what there is in this shell without forcing, over the forced one; NULL or NAN: not known) and the median over the
+/// outer half of the shells (what the sample does as a whole). `limit` is the same with the mean background of all
+/// bodies. Reach: the outer edge of the last shell of the unbroken run that feels it. The fit over this run is
 /// least squares of the logarithms of the means, weighted by the counts. forced: row. Errors: none. Source: P figure
 /// 4.5.
 #define SCREE_ROTATION_FLOOR_FACTOR 2.0
-void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced, double background,
-                                  scree_rotation_decay *decay);
+void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced,
+                                  const scree_rotation_background *background, scree_rotation_decay *decay);
 
 /// The shell at `distance` [mean diameters]; SCREE_ROTATION_BINS: none.
 size_t scree_rotation_bin_at(double distance);

@@ -56,13 +56,15 @@ static double distance_between(const scree_model *model, const scree_state *stat
     return scree_length(here) / (2 * model->mean_radius);
 }
 
-static void fill_bins(const scree_model *model, const scree_state *state, size_t forced, scree_rotation_decay *decay)
+/// Shells of amounts over `scale`.
+static void fill_bins(const scree_model *model, const scree_state *state, size_t forced, double scale,
+                      scree_rotation_decay *decay)
 {
-    double square[SCREE_ROTATION_BINS] = {0}, driven = scree_rotation_amount(state, forced);
+    double square[SCREE_ROTATION_BINS] = {0};
     size_t id = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
         if (row == forced || !scree_rotation_counts(state, row)) continue;
-        double ratio = scree_rotation_amount(state, row) / driven;
+        double ratio = scree_rotation_amount(state, row) / scale;
         double distance = distance_between(model, state, forced, row);
         size_t b = scree_rotation_bin_at(distance);
         if (b >= SCREE_ROTATION_BINS) continue;
@@ -99,16 +101,35 @@ static void find_run(const scree_rotation_decay *decay, size_t *first, size_t *l
 {
     for (*first = 0; *first < decay->bin_count && decay->bin[*first].count == 0;) (*first)++;
     for (*last = *first; *last < decay->bin_count; (*last)++)
-        if (decay->bin[*last].count == 0 || !(decay->bin[*last].mean >= decay->limit)) break;
+        if (decay->bin[*last].count == 0 || !(decay->bin[*last].mean >= decay->bin[*last].felt)) break;
 }
 
-void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced, double background,
-                                  scree_rotation_decay *decay)
+void scree_rotation_background_measure(const scree_model *model, const scree_state *state, size_t forced, double scale,
+                                       scree_rotation_background *background)
+{
+    scree_rotation_decay decay = {.bin_count = 0};
+    fill_bins(model, state, forced, scale, &decay);
+    background->mean = scree_rotation_mean_amount(state, forced) / scale;
+    for (size_t b = 0; b < SCREE_ROTATION_BINS; b++)
+        background->shell[b] = b < decay.bin_count ? decay.bin[b].mean : NAN;
+}
+
+/// What is felt, from the background and what the outer shells do.
+static void set_limits(scree_rotation_decay *decay, const scree_rotation_background *background)
+{
+    const double far = far_level(decay);
+    decay->limit = SCREE_ROTATION_FLOOR_FACTOR * (background ? fmax(background->mean, far) : far);
+    for (size_t b = 0; b < decay->bin_count; b++)
+        decay->bin[b].felt = SCREE_ROTATION_FLOOR_FACTOR * (background ? fmax(background->shell[b], far) : far);
+}
+
+void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced,
+                                  const scree_rotation_background *background, scree_rotation_decay *decay)
 {
     *decay = (scree_rotation_decay){.bin_width = BIN_WIDTH, .first = FIRST, .amplitude = NAN, .length = NAN};
     decay->length_low = decay->length_high = NAN;
-    fill_bins(model, state, forced, decay);
-    decay->limit = SCREE_ROTATION_FLOOR_FACTOR * fmax(background, far_level(decay));
+    fill_bins(model, state, forced, scree_rotation_amount(state, forced), decay);
+    set_limits(decay, background);
     double x[SCREE_ROTATION_BINS], y[SCREE_ROTATION_BINS], weight[SCREE_ROTATION_BINS];
     size_t first, last;
     find_run(decay, &first, &last);

@@ -30,12 +30,12 @@ static void write_decay(FILE *file, const scree_simulation *s, const findings *f
 {
     (void)s;
     const scree_rotation_decay *decay = &f->decay;
-    fputs("distance [1],rotation_ratio [1],standard_error [1],count [1],fit [1]\n", file);
+    fputs("distance [1],rotation_ratio [1],standard_error [1],count [1],fit [1],felt [1]\n", file);
     for (size_t b = 0; b < decay->bin_count; b++) {
         const scree_rotation_bin *bin = &decay->bin[b];
         if (bin->count > 0)
-            fprintf(file, "%.9g,%.9g,%.9g,%zu,%.9g\n", bin->distance, bin->mean, bin->standard_error, bin->count,
-                    bin->distance < decay->reach ? fitted(decay, bin->distance) : NAN);
+            fprintf(file, "%.9g,%.9g,%.9g,%zu,%.9g,%.9g\n", bin->distance, bin->mean, bin->standard_error, bin->count,
+                    bin->distance < decay->reach ? fitted(decay, bin->distance) : NAN, bin->felt);
     }
 }
 
@@ -136,7 +136,7 @@ static void summarise(const scree_simulation *s, const findings *f, scree_summar
     scree_summary_set_number(summary, "rotation_reach", f->decay.reach);
     set_interval(summary, "rotation_decay_length", f->decay.length, f->decay.length_low, f->decay.length_high);
     scree_summary_set_number(summary, "rotation_at_contact", f->decay.amplitude * exp(-1 / f->decay.length));
-    scree_summary_set_number(summary, "rotation_background", scree_rotation_of(&s->state)->background);
+    scree_summary_set_number(summary, "rotation_background", scree_rotation_of(&s->state)->background.mean);
     scree_summary_set_number(summary, "rotation_felt", f->decay.limit);
     set_interval(summary, "rotation_chain_correlation", a->chains.value, a->chains.low, a->chains.high);
     set_interval(summary, "rotation_chain_alignment", a->alignment.value, a->alignment.low, a->alignment.high);
@@ -167,7 +167,7 @@ scree_status scree_rotation_conclude(const scree_conclusion *run, scree_error *e
     double cutoff = last_stage(s)->cutoff;
     scree_status status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;
-    scree_rotation_decay_measure(&s->model, state, f.forced, scree_rotation_of(state)->background, &f.decay);
+    scree_rotation_decay_measure(&s->model, state, f.forced, &scree_rotation_of(state)->background, &f.decay);
     scree_rotation_network_measure(&s->model, state, &s->table, f.forced, cutoff, &f.network);
     status = scree_rotation_alignment_measure(&s->model, state, &s->table, f.forced, cutoff, &f.decay, &f.network,
                                               &f.alignment, error);

@@ -181,8 +181,9 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     if (status) return status;
     course c = course_of(s);
     double ramp = (double)(c.ramp - c.rest) * s->state.tick, hold = (double)(c.hold - c.ramp) * s->state.tick;
-    *scree_rotation_of(&s->state) =
-        (scree_rotation){.background = NAN, .turn = own_config(s)->spin * (0.5 * ramp + hold)};
+    scree_rotation *own = scree_rotation_of(&s->state);
+    *own = (scree_rotation){.background.mean = NAN, .turn = own_config(s)->spin * (0.5 * ramp + hold)};
+    for (int b = 0; b < SCREE_ROTATION_BINS; b++) own->background.shell[b] = NAN;
     scree_forced_spin_begin(&s->state, id);
     return SCREE_OK;
 }
@@ -195,11 +196,11 @@ static void plan(scree_simulation *s)
 }
 
 /// What the particles that bear load turn by at rest, over the prescribed spin.
-static double background(const scree_simulation *s, uint64_t ticks)
+static void measure_background(const scree_simulation *s, uint64_t ticks)
 {
-    double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[scree_forced(&s->state)->id]);
-    double time = s->state.dimension == 2 ? (double)ticks * s->state.tick : 1;
-    return mean / (time * own_config(s)->spin);
+    const double time = s->state.dimension == 2 ? (double)ticks * s->state.tick : 1;
+    scree_rotation_background_measure(&s->model, &s->state, s->state.row_of_id[scree_forced(&s->state)->id],
+                                      time * own_config(s)->spin, &scree_rotation_of(&s->state)->background);
 }
 
 static void forget_angles(scree_state *state)
@@ -215,7 +216,7 @@ static void control(scree_simulation *s)
     const course c = course_of(s);
     uint64_t done = state->step - state->stage.first_step;
     if (done == c.rest && c.rest > 0) {
-        scree_rotation_of(state)->background = background(s, c.rest);
+        measure_background(s, c.rest);
         forget_angles(state);
     }
     if (done == c.ramp) forget_angles(state);
@@ -287,13 +288,15 @@ static const scree_stage_numbers numbers = {.held = true,
                                                 "a confine stage must come before: rotate_particle keeps its pressure",
                                             .wrong = wrong};
 
-#define ONE(member, unit, meaning)                                                                                     \
-    SCREE_FIELD_ONE(rotate_particle, scree_rotation, member, "rotate_particle/" #member, SCREE_FIELD_DOUBLE, 1, unit,  \
-                    meaning,                                                                                           \
+#define SOME(member, name, components, unit, meaning)                                                                  \
+    SCREE_FIELD_ONE(rotate_particle, scree_rotation, member, "rotate_particle/" name, SCREE_FIELD_DOUBLE, components,  \
+                    unit, meaning,                                                                                     \
                     .range = {.least = -DBL_MAX, .limit = SCREE_LIMIT_NUMBER, .most = DBL_MAX, .undefined = true})
 static const scree_field fields[] = {
-    ONE(background, "1", "spins at rest over the prescribed one; not a number: no rest"),
-    ONE(turn, "rad", "angle that the particle turns by in the whole stage"),
+    SOME(background.mean, "background", 1, "1", "spins at rest over the prescribed one; not a number: no rest"),
+    SOME(background.shell, "shells", SCREE_ROTATION_BINS, "1",
+         "the same of the shells around the particle, a mean diameter wide, from half a diameter on"),
+    SOME(turn, "turn", 1, "rad", "angle that the particle turns by in the whole stage"),
 };
 
 static const scree_result results[] = {

@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_STAGE_ROTATE_CONFIG_H
 #define SCREE_RUN_STAGE_ROTATE_CONFIG_H
 
-#include "state/state.h"
+#include "measure/rotation.h"
 
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
 
@@ -18,8 +18,8 @@ typedef struct scree_rotate_config {
 
 /// State of the module `rotate_particle`.
 typedef struct scree_rotation {
-    double background; ///< 1, spins at rest over the prescribed one; NAN: no rest
-    double turn;       ///< rad, that the particle turns by in the whole stage
+    scree_rotation_background background; ///< spins at rest over the prescribed one; NAN: no rest
+    double turn;                          ///< rad, that the particle turns by in the whole stage
 } scree_rotation;
 
 static inline scree_rotation *scree_rotation_of(const scree_state *state)

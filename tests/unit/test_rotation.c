@@ -101,6 +101,45 @@ static void destroy(cluster *c)
     scree_release(&c->table.contact);
 }
 
+/// The same in all shells.
+static scree_rotation_background everywhere(double value)
+{
+    scree_rotation_background background = {.mean = value};
+    for (int b = 0; b < SCREE_ROTATION_BINS; b++) background.shell[b] = value;
+    return background;
+}
+
+/// What a shell must reach follows from what it did itself at rest.
+static void shells_have_backgrounds_of_their_own(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_decay decay;
+    scree_rotation_background rest;
+    create(&c, 2);
+    // At rest a tenth of what there is under forcing, but in the fifth shell, from 4.5 diameters on, as much.
+    for (size_t k = 0; k < c.state.count; k++) {
+        const double away = hypot(c.state.row[k].x, c.state.row[k].y) / (2 * RADIUS);
+        c.state.angle[k] *= k == c.forced || (away >= 4.5 && away < 5.5) ? 1 : 0.1;
+    }
+    const double driven = fabs(c.state.angle[c.forced]);
+    scree_rotation_background_measure(&c.model, &c.state, c.forced, driven, &rest);
+    for (size_t k = 0; k < c.state.count; k++) {
+        const double away = hypot(c.state.row[k].x, c.state.row[k].y) / (2 * RADIUS);
+        c.state.angle[k] /= k == c.forced || (away >= 4.5 && away < 5.5) ? 1 : 0.1;
+    }
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NULL, &decay);
+    assert_true(decay.reach > 5.5);
+    assert_true(fabs(rest.shell[2] / (0.1 * decay.bin[2].mean) - 1) < 1e-12);
+    assert_true(fabs(rest.shell[4] / decay.bin[4].mean - 1) < 1e-12);
+    assert_true(isnan(rest.shell[SCREE_ROTATION_BINS - 1]));
+    assert_true(fabs(rest.mean / (scree_rotation_mean_amount(&c.state, c.forced) / driven) - 0.1) < 0.2);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, &rest, &decay);
+    assert_true(decay.reach == 4.5);
+    assert_true(fabs(decay.bin[4].felt - 2 * rest.shell[4]) < 1e-12);
+    destroy(&c);
+}
+
 static void an_exponential_decay_is_found(void **unused)
 {
     (void)unused;
@@ -108,7 +147,7 @@ static void an_exponential_decay_is_found(void **unused)
         cluster c;
         scree_rotation_decay decay;
         create(&c, dimension);
-        scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &decay);
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, NULL, &decay);
         // Shells are a diameter wide, and bodies lie anywhere in them: a quarter of one in 14 diameters.
         assert_true(fabs(decay.length - DECAY) < 0.02 * DECAY);
         // The interval is that of the scatter about the line; that of the places in the shells comes on top of it.
@@ -119,7 +158,8 @@ static void an_exponential_decay_is_found(void **unused)
         // that at 8.9, in the shell from 8.5 to 9.5. And it is 0.12, twice the background, at 6.4.
         assert_true(decay.reach == 8.5 || decay.reach == 9.5);
         scree_rotation_decay other;
-        scree_rotation_decay_measure(&c.model, &c.state, c.forced, 0.06, &other);
+        const scree_rotation_background background = everywhere(0.06);
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, &background, &other);
         assert_true(other.reach == 6.5 && other.fitted == 6);
         size_t counted = 0;
         for (size_t b = 0; b < decay.bin_count; b++) counted += decay.bin[b].count;
@@ -137,7 +177,8 @@ static void shells_and_the_fit_have_their_formulas(void **unused)
     scree_rotation_decay decay;
     create(&c, 2);
     for (size_t k = 0; k < c.state.count; k++) c.state.angle[k] *= k == c.forced ? 1 : exp(2 * uniform(k) - 1);
-    scree_rotation_decay_measure(&c.model, &c.state, c.forced, 0.06, &decay);
+    const scree_rotation_background background = everywhere(0.06);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, &background, &decay);
     for (size_t b = 0; b < decay.bin_count; b++) {
         double n = 0, sum = 0, squares = 0, driven = fabs(c.state.angle[c.forced]);
         for (int pass = 0; pass < 2; pass++)
@@ -201,7 +242,8 @@ static void spins_that_do_not_decay_have_no_reach(void **unused)
     create(&c, 2);
     for (size_t k = 0; k < c.state.count; k++) c.state.angle[k] = 0.01 * (0.5 + uniform(k));
     // All of it is there without forcing too.
-    scree_rotation_decay_measure(&c.model, &c.state, c.forced, 1, &decay);
+    const scree_rotation_background background = everywhere(1);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, &background, &decay);
     assert_true(decay.reach == 0 && decay.fitted == 0 && isnan(decay.length));
     destroy(&c);
 }
@@ -213,13 +255,13 @@ static void bodies_that_nothing_holds_do_not_count(void **unused)
     cluster c;
     scree_rotation_decay with, without;
     create(&c, 2);
-    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &without);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NULL, &without);
     size_t loose = c.forced + 7;
     double mean = scree_rotation_mean_amount(&c.state, c.forced);
     c.state.angle[loose] = 1e3;
     c.state.sum[loose].contacts = 1;
     assert_true(!scree_rotation_counts(&c.state, loose) && scree_rotation_counts(&c.state, c.forced));
-    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &with);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NULL, &with);
     // One of more than six hundred bodies is missing.
     assert_true(fabs(with.length / without.length - 1) < 0.01);
     assert_true(fabs(scree_rotation_mean_amount(&c.state, c.forced) / mean - 1) < 0.01);
@@ -251,7 +293,7 @@ static void rotations_behind_a_strong_chain(void **unused)
         shadowed += behind;
         if (behind) c.state.angle[k] *= 0.5;
     }
-    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &decay);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NULL, &decay);
     scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
     assert_int_equal(scree_rotation_alignment_measure(&c.model, &c.state, &c.table, c.forced, 100, &decay, &network,
                                                       &alignment, NULL),
@@ -381,7 +423,7 @@ static void rotations_that_follow_chains_correlate(void **unused)
             double cosine = row->x / fmax(1e-9, hypot(row->x, row->y));
             c.state.angle[k] *= exp(sign * (cosine * cosine - 0.5) + 0.5 * (uniform(5000 + k) - 0.5));
         }
-        scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &decay);
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, NULL, &decay);
         scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
         assert_int_equal(scree_rotation_alignment_measure(&c.model, &c.state, &c.table, c.forced, 10, &decay, &network,
                                                           &alignment, NULL),
@@ -436,6 +478,7 @@ static void a_rotated_assembly_has_a_rotated_tensor(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shells_have_backgrounds_of_their_own),
         cmocka_unit_test(an_exponential_decay_is_found),
         cmocka_unit_test(shells_and_the_fit_have_their_formulas),
         cmocka_unit_test(sectors_have_equal_solid_angles),
