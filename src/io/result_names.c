@@ -79,6 +79,7 @@ const scree_result scree_run_results[] = {
     {"loading_processor_time", "s", "processor time of the stage"},
     {"corner_distortion", "1", "non-affine displacement at the corners over the width"},
     {"corner_distortion_rms", "1", "root mean square of the four corners instead of the largest"},
+    {"corner_rolling_ratio", "1", "mean rotation of the grains near the corners over that of all"},
     {"boundary_roughness", "1", "roughness of a round sample's outline in mean diameters"},
     // a search for a limit
     {"limit", "1", "of a key, between runs that stand and runs that do not, in SI units"},

@@ -92,6 +92,7 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
 typedef struct scree_corner_motion {
     double largest;          ///< over the four
     double root_mean_square; ///< of the four
+    double rolling;          ///< 1, mean rotation of the grains there over that of all; NAN of those that are not round
 } scree_corner_motion;
 
 /// Errors: memory.

@@ -12,6 +12,8 @@
 
 /// P shades cells of more than so many mean pressures (fig. 3.11).
 #define STRONG 1.75
+/// And of more than so many mean distortions (fig. 3.10).
+#define DEFORMED 2.0
 /// A circle has the pressure of the sample when it differs from it by less.
 #define CONVERGED 0.1
 /// Instants in series.csv and run.h5 are the same bits but for the printed digits.
@@ -98,17 +100,17 @@ static void add_stress(scree_cell_averages *averages, const scree_cell_snapshot 
     for (int i = 0; i < 3; i++) averages->sample_stress[4 * i] -= normal[i];
 }
 
-/// Share of the volume of each region that has more than STRONG times the mean pressure.
-static scree_status add_strong(scree_cell_averages *averages, const scree_cells *cells, const double *position,
-                               scree_error *error)
+/// Adds the share of the volume of each region that has more than `factor` times the mean of a field.
+static scree_status add_shares(const scree_cells *cells, const double *position, const double *field, double factor,
+                               double sum[SCREE_REGION_COUNT], scree_error *error)
 {
-    double *strong = NULL, share[SCREE_REGION_COUNT], mean = scree_cells_mean(cells, cells->pressure);
-    scree_status status = scree_allocate(&strong, cells->count, sizeof *strong, error);
+    double *above = NULL, share[SCREE_REGION_COUNT], mean = scree_cells_mean(cells, field);
+    scree_status status = scree_allocate(&above, cells->count, sizeof *above, error);
     if (status) return status;
-    for (size_t k = 0; k < cells->count; k++) strong[k] = cells->pressure[k] > STRONG * mean;
-    scree_cells_region_means(cells, position, strong, share);
-    for (int r = 0; r < SCREE_REGION_COUNT; r++) averages->strong[r] += share[r];
-    scree_release(&strong);
+    for (size_t k = 0; k < cells->count; k++) above[k] = field[k] > factor * mean;
+    scree_cells_region_means(cells, position, above, share);
+    for (int r = 0; r < SCREE_REGION_COUNT; r++) sum[r] += share[r];
+    scree_release(&above);
     return SCREE_OK;
 }
 
@@ -127,7 +129,10 @@ scree_status scree_cell_averages_add(scree_cell_averages *averages, const scree_
     }
     follow_circles(averages, ratio, count);
     averages->instants++;
-    return add_strong(averages, cells, snapshot->assembly.position, error);
+    const double *position = snapshot->assembly.position;
+    scree_status status = add_shares(cells, position, cells->pressure, STRONG, averages->strong, error);
+    if (!status) status = add_shares(cells, position, cells->distortion, DEFORMED, averages->deformed, error);
+    return status;
 }
 
 scree_status scree_cell_averages_strain(scree_cell_averages *averages, const scree_cell_snapshot *first,
@@ -204,6 +209,8 @@ void scree_cell_averages_summarise(const scree_cell_averages *averages, int dime
     scree_summary_set_number(summary, "plate_strong_share", averages->strong[SCREE_REGION_PLATES] / instants);
     scree_summary_set_number(summary, "side_strong_share", averages->strong[SCREE_REGION_SIDES] / instants);
     scree_summary_set_number(summary, "core_strong_share", averages->strong[SCREE_REGION_CORE] / instants);
+    scree_summary_set_number(summary, "plate_deformed_share", averages->deformed[SCREE_REGION_PLATES] / instants);
+    scree_summary_set_number(summary, "core_deformed_share", averages->deformed[SCREE_REGION_CORE] / instants);
     if (averages->wide_instants > 0)
         scree_summary_set_number(summary, "circle_pressure_spread_wide", averages->wide / averages->wide_instants);
 }

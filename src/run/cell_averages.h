@@ -18,7 +18,8 @@ typedef struct scree_cell_averages {
     double from, to;            ///< axial strains between which instants count for circles and regions
     double instants;            ///< of them
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT]; ///< sums over them
-    double strong[SCREE_REGION_COUNT]; ///< sums over them of shares of the volume above STRONG mean pressures
+    double strong[SCREE_REGION_COUNT];   ///< sums over them of shares of the volume above STRONG mean pressures
+    double deformed[SCREE_REGION_COUNT]; ///< the same above DEFORMED mean distortions
     double spread, diameter, wide;     ///< sums over them; wide: spread of circles from WIDE diameters on
     double wide_instants;              ///< of those that have such circles
     double cell_stress[9], sample_stress[9]; ///< sums over all instants of the stage

@@ -346,6 +346,8 @@ static const scree_result results[] = {
     {"plate_strong_share", "1", "share of the volume near the plates above 1.75 times the mean pressure"},
     {"side_strong_share", "1", "share of the volume near the sides above it"},
     {"core_strong_share", "1", "share of the core above it"},
+    {"plate_deformed_share", "1", "share of the volume near the plates above twice the mean rate of distortion"},
+    {"core_deformed_share", "1", "share of the core above it"},
     {"bands", NULL, "kind of localisation"},
     {"band_persistence", "1", "persistence of the bands"},
     {"localisation_index_last", "1", "localisation index of the last window"},

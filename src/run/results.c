@@ -272,6 +272,7 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
         if (status) return status;
         scree_summary_set_number(summary, "corner_distortion", corners.largest);
         scree_summary_set_number(summary, "corner_distortion_rms", corners.root_mean_square);
+        if (isfinite(corners.rolling)) scree_summary_set_number(summary, "corner_rolling_ratio", corners.rolling);
     } else if (s->state.dimension == 2) {
         status = scree_boundary_roughness(&s->model, &s->state, &value, error);
         if (!status) scree_summary_set_number(summary, "boundary_roughness", value);

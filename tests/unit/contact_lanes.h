@@ -1,10 +1,7 @@
-/// The kernels with eight lanes on any machine: compiled here for the basic instruction set, where the compiler makes
-/// the wide vectors out of narrow ones. The machinery of AVX-512 kernels is tested by this also where they cannot run.
-#pragma GCC diagnostic ignored "-Wpsabi"
-#define SCREE_ISA   9 /* no machine has it: only a name */
-#define SCREE_LANES 8
-#include "contact/pairs_2d_batch.c"
-#include "contact/pairs_3d_batch.c"
+/// Kernels with eight lanes beside the scalar code, on any machine: a test defines LANES_KERNEL and has the kernel
+/// compiled for the basic instruction set (test_contact_lanes_2d.c, _3d.c: each takes minutes to compile).
+#ifndef SCREE_TESTS_CONTACT_LANES_H
+#define SCREE_TESTS_CONTACT_LANES_H
 
 #include "sphere_fixture.h"
 
@@ -79,7 +76,7 @@ static void compare(const variant *v)
     create(&wide, v);
     for (int n = 0; n < EVALUATIONS; n++) {
         contact_totals a = evaluate(&one, v, contact_pairs_reference);
-        contact_totals b = evaluate(&wide, v, v->dimension == 3 ? scree_pairs_3d_v9 : scree_pairs_2d_v9);
+        contact_totals b = evaluate(&wide, v, LANES_KERNEL);
         assert_memory_equal(one.state.sum, wide.state.sum, one.state.count * sizeof *one.state.sum);
         if (v->dimension == 3)
             assert_memory_equal(one.state.torque, wide.state.torque, one.state.count * sizeof *one.state.torque);
@@ -96,38 +93,34 @@ static void compare(const variant *v)
     fixture_destroy(&one);
 }
 
-static void eight_lanes_give_the_bits_of_one(void **unused)
+/// Both numbers of materials, with and without ledger.
+static void compare_all(variant v)
 {
-    (void)unused;
-    static const variant variants[] = {{.law = SCREE_SLOT_hertz_brilliantov},
-                                       {.law = SCREE_SLOT_hertz_brilliantov, .option = BRILLIANTOV_IMPLICIT},
-                                       {.law = SCREE_SLOT_hertz_mindlin},
-                                       {.law = SCREE_SLOT_linear}};
-    for (int dimension = 2; dimension <= 3; dimension++)
-        for (size_t k = 0; k < sizeof variants / sizeof *variants; k++)
-            for (int materials = 1; materials <= 2; materials++)
-                for (int ledger = 0; ledger <= 1; ledger++)
-                    compare(
-                        &(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger, false, 0});
+    for (int materials = 1; materials <= 2; materials++)
+        for (int ledger = 0; ledger <= 1; ledger++) {
+            v.many_materials = materials > 1;
+            v.ledger = ledger;
+            compare(&v);
+        }
+}
+
+/// The laws that are there in the plane and in space.
+static void compare_laws(int dimension)
+{
+    compare_all((variant){.dimension = dimension, .law = SCREE_SLOT_hertz_brilliantov});
+    compare_all((variant){.dimension = dimension, .law = SCREE_SLOT_hertz_brilliantov, .option = BRILLIANTOV_IMPLICIT});
+    compare_all((variant){.dimension = dimension, .law = SCREE_SLOT_hertz_mindlin});
+    compare_all((variant){.dimension = dimension, .law = SCREE_SLOT_linear});
+}
+
+/// With several materials, with and without ledger.
+static void compare_ledgers(variant v)
+{
+    v.many_materials = true;
     for (int ledger = 0; ledger <= 1; ledger++) {
-        for (unsigned option = MINDLIN_ROLLING; option <= (MINDLIN_ROLLING | MINDLIN_RESCALED); option++)
-            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false, 0});
-        for (int materials = 1; materials <= 2; materials++)
-            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger, false, 0});
-        for (unsigned option = MINDLIN_CONSTANT; option <= (MINDLIN_CONSTANT | MINDLIN_RESCALED); option++)
-            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false, 0});
-        for (int dimension = 2; dimension <= 3; dimension++)
-            for (unsigned option = 0; option <= (dimension == 3 ? ADHESIVE_CONSTANT : 0); option++) {
-                compare(&(variant){dimension, SCREE_SLOT_hertz_jkr, option, true, ledger, false, 0});
-                compare(&(variant){dimension, SCREE_SLOT_hertz_dmt, option, true, ledger, false, 0});
-            }
+        v.ledger = ledger;
+        compare(&v);
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eight_lanes_give_the_bits_of_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+#endif
