@@ -92,7 +92,7 @@ static void the_spin_follows_the_ramp(void **unused)
         if (k > REST + RAMP) assert_true(fabs(angle - turned) < 1e-12);
         if (k == REST) assert_true(angle == 0);
         // What a sample at rest turns by is something, and little.
-        double background = scree_rotation_of(&s.state)->background;
+        double background = scree_rotation_of(&s.state)->background.mean;
         if (k > REST) assert_true(background > 0 && background < 0.3);
     }
     assert_true(s.stage_ended);
