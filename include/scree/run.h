@@ -128,6 +128,13 @@ typedef struct scree_plot_scene {
 SCREE_API scree_status scree_plot_field(const char *directory, const scree_plot_scene *scene,
                                         void (*message)(void *user, const char *path), void *user, scree_error *error);
 
+/// Draws the scenes of all snapshots in one frame and with one scale of colours, as PNG files in
+/// `directory`/figures/movie-FIELD/, and a movie-FIELD.mp4 beside it where ffmpeg is installed; `scene->at` is not
+/// used. `message` tells the path of the movie, or a warning why there are the frames alone. Errors as of
+/// scree_plot_field.
+SCREE_API scree_status scree_plot_movie(const char *directory, const scree_plot_scene *scene,
+                                        void (*message)(void *user, const char *path), void *user, scree_error *error);
+
 /// Calls `visit` for every field of scenes: its name and what it is.
 SCREE_API void scree_plot_field_visit(void (*visit)(void *user, const char *name, const char *meaning), void *user);
 

@@ -105,6 +105,14 @@ class MeasureOptions(Structure):
                 ("output", c_char_p), ("no_figures", c_bool), ("message", LINE), ("user", c_void_p)]
 
 
+class PlotColumns(Structure):
+    _fields_ = [("x", c_char_p), ("y", c_char_p), ("stage", c_char_p)]
+
+
+class PlotScene(Structure):
+    _fields_ = [("field", c_char_p), ("at", c_char_p), ("section", c_bool)]
+
+
 class TheoryValue(Structure):
     _fields_ = [("name", c_char_p), ("value", c_double), ("unit", c_char_p), ("meaning", c_char_p)]
 
@@ -152,7 +160,8 @@ _FUNCTIONS = {
     "scree_simulation_remove_force": "psp:S", "scree_loads_add_many": "pzppp:V", "scree_simulation_set": "ppp:S",
     "scree_simulation_save": "psp:S", "scree_simulation_restore": "psp:S", "scree_simulation_open_run": "sppp:S",
     "scree_run": "ppp:S", "scree_restart": "spp:S", "scree_result_get": "sspzp:S", "scree_result_visit": "sppp:S",
-    "scree_plot_only": "ssppp:S", "scree_run_data_visit": "ssppp:S", "scree_run_data_read": "ssppp:S",
+    "scree_plot_only": "ssppp:S", "scree_plot_chart": "spppp:S", "scree_plot_field": "spppp:S",
+    "scree_plot_movie": "spppp:S", "scree_run_data_visit": "ssppp:S", "scree_run_data_read": "ssppp:S",
     "scree_run_data_attributes": "ssppp:S",
     "scree_sweep_read": "sppp:S", "scree_sweep_free": "p:V", "scree_sweep_builtin_count": ":z",
     "scree_sweep_builtin_name": "z:s", "scree_sweep_builtin_meaning": "z:s", "scree_sweep_lacks": "p:s",

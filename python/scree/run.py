@@ -3,14 +3,15 @@ from __future__ import annotations
 
 import csv
 import re
+import warnings
 from ctypes import byref, c_void_p, create_string_buffer
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Optional
 
 import numpy as np
 
-from ._library import (ATTRIBUTE, LINE, NAME, RESULT, Folder, Interruption, View, array_of, call, encode, from_text, lib,
-                       text)
+from ._library import (ATTRIBUTE, LINE, NAME, RESULT, Folder, Interruption, PlotColumns, PlotScene, View, array_of, call,
+                       encode, from_text, lib, text)
 from .case import Case, run_options
 
 
@@ -197,4 +198,30 @@ class Run:
         paths: "list[Path]" = []
         tell = LINE(lambda user, path: paths.append(Path(text(path))))
         call(lib.scree_plot_only, encode(self.folder), ",".join(names).encode() if names else None, tell, None)
+        return paths
+
+    def chart(self, y: str, *, x: Optional[str] = None, stage: Optional[str] = None) -> Path:
+        """Draws columns of the series, "p,q", over another one (time), of rows of these stages; its path."""
+        asked = PlotColumns(x=x.encode() if x else None, y=y.encode(), stage=stage.encode() if stage else None)
+        return self._draw(lib.scree_plot_chart, asked)[0]
+
+    def scene(self, field: str, *, at: Optional[str] = None, section: bool = False) -> Path:
+        """Draws the bodies at "end", "start", "#12", "5 %", "0.1 s" or the end of a stage, coloured by a field; its
+        path."""
+        asked = PlotScene(field=field.encode(), at=at.encode() if at else None, section=section)
+        return self._draw(lib.scree_plot_field, asked)[0]
+
+    def movie(self, field: str, *, section: bool = False) -> Path:
+        """Draws the scenes of all snapshots in one frame. The path of the mp4, or, with a warning, of the folder of the
+        frames where there is no ffmpeg."""
+        said = str(self._draw(lib.scree_plot_movie, PlotScene(field=field.encode(), section=section))[0])
+        if not said.startswith("warning: "):
+            return Path(said)
+        warnings.warn(said[len("warning: "):], stacklevel=2)
+        return self.folder / "figures" / f"movie-{field}{'-section' if section else ''}"
+
+    def _draw(self, function: Any, asked: Any) -> "list[Path]":
+        paths: "list[Path]" = []
+        tell = LINE(lambda user, path: paths.append(Path(text(path))))
+        call(function, encode(self.folder), byref(asked), tell, None)
         return paths

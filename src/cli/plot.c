@@ -1,5 +1,5 @@
 /// scree plot DIR [--list | --only NAME,... | --y COLUMN,... [--x COLUMN] [--stage STAGE,...] |
-///                 --scene FIELD [--at WHEN] [--section]]
+///                 --scene FIELD [--at WHEN] [--section] | --movie FIELD [--section]]
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -9,7 +9,10 @@
 static void print_path(void *user, const char *path)
 {
     (void)user;
-    printf("%s\n", path);
+    if (strncmp(path, "warning:", 8) == 0)
+        fprintf(stderr, "scree plot: %s\n", path);
+    else
+        printf("%s\n", path);
 }
 
 static void widen(void *user, const char *name, const char *meaning)
@@ -66,6 +69,13 @@ static scree_status draw_field(const scree_command *command, scree_error *error)
     return scree_plot_field(command->argument[0], &scene, print_path, NULL, error);
 }
 
+static scree_status draw_movie(const scree_command *command, scree_error *error)
+{
+    const scree_plot_scene scene = {.field = scree_command_value(command, "movie"),
+                                    .section = scree_command_has(command, "section")};
+    return scree_plot_movie(command->argument[0], &scene, print_path, NULL, error);
+}
+
 static scree_status draw_named(const scree_command *command, scree_error *error)
 {
     return scree_plot_only(command->argument[0], scree_command_value(command, "only"), print_path, NULL, error);
@@ -84,6 +94,7 @@ static const struct {
     {{"list"}, list_figures},
     {{"y", "x", "stage"}, draw_columns},
     {{"scene", "at", "section"}, draw_field},
+    {{"movie", "section"}, draw_movie},
     {{"only"}, draw_named},
 };
 

@@ -521,13 +521,19 @@ static const scree_verb run_verbs[] = {
               .meaning = "of the scene: start, end, #N for snapshot N, an axial strain, a time with its unit, a "
                          "stage for its end",
               .preset = "end"},
+             {.name = "movie",
+              .value = "FIELD",
+              .meaning =
+                  "draw the scenes of all snapshots in one frame, as PNG files and, where ffmpeg is installed, as "
+                  "one mp4"},
              {.name = "section", .meaning = "cut spheres through their mean centre in place of the view from outside"}},
         .example = {{"scree plot out", "after a run with --no-figures"},
                     {"scree plot out --list", "what there is to draw"},
                     {"scree plot out --only stress-ratio,packing-end", "two figures"},
                     {"scree plot out --x axial_strain --y kinetic,elastic_normal --stage compress",
                      "a chart of one's own"},
-                    {"scree plot out --scene speed --at '1 %'", "a scene of one's own"}},
+                    {"scree plot out --scene speed --at '1 %'", "a scene of one's own"},
+                    {"scree plot out --movie displacement", "all snapshots one after the other"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_plot,
     },

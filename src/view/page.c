@@ -30,7 +30,7 @@ static cairo_status_t draw_svg(FILE *file, const scree_page *page)
 
 static cairo_status_t draw_png(FILE *file, const scree_page *page)
 {
-    double scale = SCREE_PAGE_PIXELS / fmax(page->width, page->height);
+    double scale = (page->pixels > 0 ? page->pixels : SCREE_PAGE_PIXELS) / fmax(page->width, page->height);
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)lround(page->width * scale),
                                                           (int)lround(page->height * scale));
     cairo_t *cairo = cairo_create(surface);
@@ -76,7 +76,7 @@ static scree_status write_one(const char *path, const char *extension, render *r
 
 scree_status scree_page_write(const char *path, const scree_page *page, scree_error *error)
 {
-    scree_status status = write_one(path, "svg", draw_svg, page, error);
+    scree_status status = page->pixels > 0 ? SCREE_OK : write_one(path, "svg", draw_svg, page, error);
     return status ? status : write_one(path, "png", draw_png, page, error);
 }
 

@@ -17,9 +17,10 @@ typedef struct scree_page {
     size_t marks;         ///< at most so many discs, or as many lines, are one shape of the drawing
     scree_page_draw *draw;
     void *user;
+    int pixels; ///< long side of a PNG alone; 0: both files
 } scree_page;
 
-/// Draws a page twice: NAME.svg (text as glyphs, no fonts needed to look at it) and NAME.png. A page that could not
+/// Draws a page twice: NAME.svg (text as glyphs, no fonts needed to look at it) and NAME.png, or the latter alone. A page that could not
 /// have the memory that its marks may take is not begun. Errors: disk, memory.
 scree_status scree_page_write(const char *path, const scree_page *page, scree_error *error) SCREE_MUST_USE;
 

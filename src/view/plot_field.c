@@ -1,29 +1,15 @@
 /// A scene that the user asks for: the bodies of one snapshot, coloured by a field, or the network of their forces.
-#include "view/plot_parts.h"
+#include "view/plot_field.h"
 
 #include "base/memory.h"
 #include "base/units.h"
 #include "io/run_directory.h"
-#include "io/sample_file.h"
-
-#include <scree/scree.h>
 
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/// What a field is made of: `now` and, of fields that compare, `start`.
-typedef void field_values(const scree_snapshot *start, const scree_snapshot *now, int axis, double *value);
-
-typedef struct field_row {
-    const char *name, *meaning, *unit; ///< "@" stands for the SI prefix that suits the values
-    scree_colour_map map;
-    field_values *values; ///< NULL: the force network
-    int axis, dimension;  ///< of the run that has it; 0: any
-    bool compares;
-} field_row;
 
 // ---- fields ------------------------------------------------------------------------------------------------------
 
@@ -102,7 +88,7 @@ static void take_force(const scree_snapshot *start, const scree_snapshot *now, i
 }
 
 // clang-format off
-static const field_row fields[] = {
+static const scree_field_row fields[] = {
     {"speed", "speed", "@m/s", SCREE_COLOUR_SEQUENTIAL, take_speed, -1, 0, false},
     {"velocity_x", "velocity along x", "@m/s", SCREE_COLOUR_DIVERGING, take_speed, 0, 0, false},
     {"velocity_y", "velocity along y", "@m/s", SCREE_COLOUR_DIVERGING, take_speed, 1, 0, false},
@@ -129,9 +115,10 @@ void scree_plot_field_visit(void (*visit)(void *user, const char *name, const ch
         if (k == 0 || strcmp(fields[k].name, fields[k - 1].name) != 0) visit(user, fields[k].name, fields[k].meaning);
 }
 
-static scree_status find_field(const char *name, int dimension, const field_row **row, scree_error *error)
+static scree_status find_field(const scree_asked_scene *asked, int dimension, const scree_field_row **row,
+                               scree_error *error)
 {
-    const char *known[FIELDS];
+    const char *known[FIELDS], *name = asked->scene->field;
     size_t count = 0;
     *row = NULL;
     for (int k = 0; k < FIELDS; k++) {
@@ -145,7 +132,8 @@ static scree_status find_field(const char *name, int dimension, const field_row 
     size_t used = 0;
     for (size_t k = 0; k < count && used < sizeof list; k++)
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "", known[k]);
-    return scree_plot_refuse(error, "--scene", nearest ? nearest : list, "scenes of this run have no field '%s'", name);
+    return scree_plot_refuse(error, asked->frame ? "--movie" : "--scene", nearest ? nearest : list,
+                             "scenes of this run have no field '%s'", name);
 }
 
 // ---- which snapshot ----------------------------------------------------------------------------------------------
@@ -201,21 +189,10 @@ static size_t find_start(const scree_snapshot_mark *mark, size_t count)
 
 // ---- drawing -----------------------------------------------------------------------------------------------------
 
-typedef struct asked_scene {
-    const scree_plot_scene *scene;
-    scree_plot_run run; ///< folder and strains of the snapshots are there
-    scree_snapshot_mark *mark;
-    size_t which, start_at;
-    const field_row *row;
-    scree_snapshot start, now;
-    double *value;
-    char label[200];
-} asked_scene;
-
-static scree_status read_snapshots(asked_scene *asked, scree_error *error)
+static scree_status read_snapshots(scree_asked_scene *asked, scree_error *error)
 {
     scree_status status = scree_snapshot_read(asked->run.directory, asked->which, &asked->now, error);
-    if (!status) status = find_field(asked->scene->field, asked->now.dimension, &asked->row, error);
+    if (!status) status = find_field(asked, asked->now.dimension, &asked->row, error);
     if (!status && asked->scene->section && (asked->now.dimension == 2 || !asked->row->values))
         status = scree_plot_refuse(error, "--section", "a run of spheres and a field of bodies",
                                    asked->now.dimension == 2 ? "discs cannot be cut%s" : "a cut has no contacts%s", "");
@@ -229,27 +206,38 @@ static scree_status read_snapshots(asked_scene *asked, scree_error *error)
     return status;
 }
 
-/// Values in the unit that the label names.
-static scree_status fill(asked_scene *asked, scree_error *error)
+static void give_back(scree_asked_scene *asked)
 {
-    char pattern[160];
-    const field_row *row = asked->row;
-    if (!row->values) return SCREE_OK;
-    scree_status status = scree_allocate(&asked->value, asked->now.count, sizeof *asked->value, error);
-    if (status) return status;
-    row->values(&asked->start, &asked->now, row->axis, asked->value);
-    const char *since = !row->compares ? "" : asked->start_at > 0 ? " since the start of loading" : " since the start";
-    (void)snprintf(pattern, sizeof pattern, "%s%s (%s)", row->meaning, since, row->unit);
-    double factor = scree_plot_label(asked->label, sizeof asked->label, pattern,
-                                     scree_plot_largest(asked->value, asked->now.count));
-    for (size_t k = 0; k < asked->now.count; k++) asked->value[k] *= factor;
-    return SCREE_OK;
+    scree_snapshot_destroy(&asked->start);
+    scree_snapshot_destroy(&asked->now);
+    scree_release(&asked->value);
 }
 
-static scree_status draw(asked_scene *asked, const char *path, scree_error *error)
+scree_status scree_asked_read(scree_asked_scene *asked, scree_error *error)
+{
+    give_back(asked);
+    scree_status status = read_snapshots(asked, error);
+    if (!status) status = scree_plot_keep_standing(&asked->run, asked->which, &asked->now, error);
+    if (status || !asked->row->values) return status;
+    status = scree_allocate(&asked->value, asked->now.count, sizeof *asked->value, error);
+    if (!status) asked->row->values(&asked->start, &asked->now, asked->row->axis, asked->value);
+    return status;
+}
+
+double scree_asked_name(scree_asked_scene *asked, double largest)
+{
+    char pattern[160];
+    const scree_field_row *row = asked->row;
+    const char *since = !row->compares ? "" : asked->start_at > 0 ? " since the start of loading" : " since the start";
+    (void)snprintf(pattern, sizeof pattern, "%s%s (%s)", row->meaning, since, row->unit);
+    return scree_plot_label(asked->label, sizeof asked->label, pattern, largest);
+}
+
+scree_status scree_asked_draw(scree_asked_scene *asked, double factor, const char *path, scree_error *error)
 {
     const scree_snapshot *now = &asked->now;
     char title[100];
+    for (size_t k = 0; asked->value && k < now->count; k++) asked->value[k] *= factor;
     (void)snprintf(title, sizeof title, "%c%.90s", toupper((unsigned char)asked->row->meaning[0]),
                    asked->row->meaning + 1);
     scree_scene scene = {.title = title,
@@ -258,13 +246,14 @@ static scree_status draw(asked_scene *asked, const char *path, scree_error *erro
                          .map = asked->row->map,
                          .force_network = !asked->row->values,
                          .of_cell = now->periodic.directions == (1u << now->dimension) - 1,
-                         .plates = true};
+                         .plates = true,
+                         .frame = asked->frame};
     if (now->dimension == 2) return scree_scene_draw(path, now, &scene, error);
     return asked->scene->section ? scree_plot_section(path, now, &scene, error)
                                  : scree_plot_space(path, now, &scene, error);
 }
 
-static scree_status open_run(asked_scene *asked, const char *directory, scree_error *error)
+scree_status scree_asked_open(scree_asked_scene *asked, const char *directory, scree_error *error)
 {
     size_t count = 0;
     asked->run.directory = directory;
@@ -276,32 +265,35 @@ static scree_status open_run(asked_scene *asked, const char *directory, scree_er
     return find_when(asked->mark, count, asked->scene->at, &asked->which, error);
 }
 
+void scree_asked_close(scree_asked_scene *asked)
+{
+    give_back(asked);
+    scree_release(&asked->mark);
+    scree_release(&asked->run.strain);
+}
+
 scree_status scree_plot_field(const char *directory, const scree_plot_scene *scene,
                               void (*message)(void *user, const char *path), void *user, scree_error *error)
 {
     scree_folder_lock taken;
-    asked_scene asked = {.scene = scene};
+    scree_asked_scene asked = {.scene = scene};
     char path[PATH_MAX], said[PATH_MAX + 8];
     scree_status status = scree_plot_lock(&taken, directory, error);
-    if (!status) status = open_run(&asked, directory, error);
-    if (!status) status = read_snapshots(&asked, error);
-    if (!status) status = scree_plot_keep_standing(&asked.run, asked.which, &asked.now, error);
-    if (!status) status = fill(&asked, error);
+    if (!status) status = scree_asked_open(&asked, directory, error);
+    if (!status) status = scree_asked_read(&asked, error);
     if (!status) status = scree_plot_make_folder(&asked.run, error);
     if (!status) {
+        const double factor =
+            asked.value ? scree_asked_name(&asked, scree_plot_largest(asked.value, asked.now.count)) : 1;
         (void)snprintf(path, sizeof path, "%.*s/scene-%s%s-%06lld", PATH_MAX - 64, asked.run.figures, asked.row->name,
                        scene->section ? "-section" : "", (long long)asked.now.index);
-        status = draw(&asked, path, error);
+        status = scree_asked_draw(&asked, factor, path, error);
     }
     if (!status && message) {
         (void)snprintf(said, sizeof said, "%s.svg", path);
         message(user, said);
     }
-    scree_snapshot_destroy(&asked.start);
-    scree_snapshot_destroy(&asked.now);
-    scree_release(&asked.mark);
-    scree_release(&asked.run.strain);
-    scree_release(&asked.value);
+    scree_asked_close(&asked);
     scree_folder_lock_release(&taken);
     return status;
 }

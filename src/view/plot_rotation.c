@@ -316,7 +316,7 @@ static scree_status draw_rose(const scree_plot_run *run, const scree_figure_job 
         r.count = table.row_count;
         r.size = 360.0 / (double)r.count;
         for (size_t k = 0; k < r.count; k++) r.largest = fmax(r.largest, r.strength[k]);
-        const scree_page page = {ROSE_WIDTH, ROSE_HEIGHT, r.count, draw_rose_page, &r};
+        const scree_page page = {ROSE_WIDTH, ROSE_HEIGHT, r.count, draw_rose_page, &r, 0};
         status = r.largest > 0 ? scree_page_write(job->path, &page, error)
                                : scree_error_set(error, SCREE_ERROR_INPUT, "no contact near the forced particle");
     }

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#define FRAME_PIXELS  1200 /* long side of a frame of a movie */
 #define MARGIN        9.0
 #define LEGEND_GAP    14.0
 #define SAMPLE_WIDTH  345.0 /* pt: with margins and legend 170 mm */
@@ -64,6 +65,36 @@ static void extend_by_walls(scree_scene_view *view)
         }
 }
 
+scree_scene_frame scree_scene_frame_begin(void)
+{
+    return (scree_scene_frame){
+        .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .limits = {INFINITY, -INFINITY}};
+}
+
+static void share_extent(scree_scene_view *view, scree_scene_frame *frame)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        frame->low[axis] = fmin(frame->low[axis], view->low[axis]);
+        frame->high[axis] = fmax(frame->high[axis], view->high[axis]);
+        if (!frame->whole) continue;
+        view->low[axis] = frame->low[axis];
+        view->high[axis] = frame->high[axis];
+    }
+}
+
+static void share_limits(scree_limits *limits, scree_scene_frame *frame)
+{
+    if (!frame->whole && limits->smallest < limits->largest) { // all at rest says nothing of the scale
+        frame->limits[0] = fmin(frame->limits[0], limits->low);
+        frame->limits[1] = fmax(frame->limits[1], limits->high);
+    }
+    if (!frame->whole || !(frame->limits[0] < frame->limits[1])) return;
+    limits->low = frame->limits[0];
+    limits->high = frame->limits[1];
+    limits->clipped_low = limits->smallest < limits->low;
+    limits->clipped_high = limits->largest > limits->high;
+}
+
 /// Corners of the drawn discs and of the periodic cell, and of the plates that lie near them.
 static scree_status measure_extent(scree_scene_view *view, scree_error *error)
 {
@@ -99,6 +130,7 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         double place = wall->position * wall->normal[axis];
         if (place > view->low[axis] - size / 4 && place < view->high[axis] + size / 4) extend(view, axis, place, place);
     }
+    if (view->scene->frame) share_extent(view, view->scene->frame);
     return SCREE_OK;
 }
 
@@ -144,6 +176,7 @@ static scree_status order_discs(scree_scene_view *view, scree_error *error)
     if (view->scene->field)
         status = scree_limits_find(view->scene->field, s->count, view->scene->map == SCREE_COLOUR_DIVERGING,
                                    &view->limits, error);
+    if (!status && view->scene->frame) share_limits(&view->limits, view->scene->frame);
     if (!status) status = scree_allocate(&view->order, view->disc_count, sizeof *view->order, error);
     if (status) return status;
     if (view->scene->depth) {
@@ -173,6 +206,10 @@ static void measure_forces(scree_scene_view *view)
         view->tension |= force < 0;
         view->mean_force += (fabs(force) - view->mean_force) / (double)touching;
     }
+    scree_scene_frame *frame = view->scene->frame;
+    if (!frame || view->mean_force == 0) return;
+    frame->mean_force = fmax(frame->mean_force, view->mean_force);
+    view->mean_force = frame->mean_force;
 }
 
 /// Room for the tips of the arrows; an arrow far longer than most is cut off at the edge instead.
@@ -275,6 +312,17 @@ static void lay_out(scree_scene_view *view)
     cairo_surface_destroy(paper);
 }
 
+/// The page of the first frame, with room for one more line of caption, is that of all.
+static void share_page(scree_scene_view *view, scree_scene_frame *frame)
+{
+    if (frame->width == 0) {
+        frame->width = view->page_width;
+        frame->height = view->page_height + 1.5 * CAPTION_SIZE;
+    }
+    view->page_width = frame->width;
+    view->page_height = frame->height;
+}
+
 static void draw_page(cairo_t *cairo, void *user)
 {
     const scree_scene_view *view = user;
@@ -305,11 +353,13 @@ scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, 
     scree_status status = measure_extent(&view, error);
     if (!status) status = order_discs(&view, error);
     if (!status) status = measure_arrows(&view, error);
-    if (!status) {
-        measure_forces(&view);
+    if (!status) measure_forces(&view);
+    if (!status && (!scene->frame || scene->frame->whole)) {
         write_caption(&view);
         lay_out(&view);
-        const scree_page page = {view.page_width, view.page_height, largest_shape(&view), draw_page, &view};
+        if (scene->frame) share_page(&view, scene->frame);
+        const scree_page page = {
+            view.page_width, view.page_height, largest_shape(&view), draw_page, &view, scene->frame ? FRAME_PIXELS : 0};
         status = scree_page_write(path, &page, error);
     }
     scree_release(&view.order);

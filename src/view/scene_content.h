@@ -7,6 +7,16 @@
 
 #include <stdbool.h>
 
+/// What the frames of a movie share. Begun with scree_scene_frame_begin; until it is `whole`, scenes that have it are
+/// not drawn: they widen it.
+typedef struct scree_scene_frame {
+    double low[2], high[2]; ///< m, corners of what is drawn
+    double limits[2];       ///< that the colours span
+    double mean_force;      ///< N, the largest
+    double width, height;   ///< pt, of the page, from the first scene that is drawn; 0: none was
+    bool whole;
+} scree_scene_frame;
+
 typedef struct scree_scene {
     const char *title;
     const double *field;    ///< per disc, NULL: plain discs; discs where it is not finite are grey
@@ -27,6 +37,7 @@ typedef struct scree_scene {
     const double *cell_field;                  ///< per cell, >= 0; labelled with field_name
     const size_t *marked;                      ///< disc that is drawn black, whatever its field; NULL: none
     const char *marked_name;                   ///< what the legend calls it
+    scree_scene_frame *frame;                  ///< NULL: the page is for this scene alone
     double cell_threshold;  ///< > 0: cells above so many times the mean are shaded; 0: coloured by `map`
     const scree_band *band; ///< its edges as lines; NULL: none
 } scree_scene;

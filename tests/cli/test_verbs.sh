@@ -154,6 +154,21 @@ expect 2 "^scree plot: --at: .*no snapshot of 'peek'" "$scree" plot out --scene 
 expect 2 '^scree plot: --section: discs cannot be cut' "$scree" plot out --scene speed --section
 expect 2 '^scree plot: --at: needs --scene' "$scree" plot out --at end
 
+# --- movies: as many frames as snapshots, all of one size; without ffmpeg the frames alone
+mkdir -p empty # no program is there
+expect 0 '^scree plot: warning: ffmpeg is not installed, so there are the frames alone: ' env PATH=empty "$scree" plot out --movie displacement
+frames=(out/figures/movie-displacement/frame-*.png)
+[ "${#frames[@]}" -gt 2 ] || complain "too few frames: ${frames[*]}"
+for frame in "${frames[@]}"; do od -An -tx1 -j16 -N8 "$frame"; done | sort -u >sizes.txt
+same "$(wc -l <sizes.txt)" 1 "sizes of the frames of a movie"
+same "$(for frame in "${frames[@]}"; do cksum <"$frame"; done | sort -u | wc -l)" "${#frames[@]}" "frames that differ"
+touch "out/figures/movie-displacement/frame-$(printf %06d ${#frames[@]}).png" # of a longer movie
+expect 0 'movie-displacement' "$scree" plot out --movie displacement
+same "$(ls out/figures/movie-displacement | wc -l)" "${#frames[@]}" "frames of the same movie again"
+if command -v ffmpeg >/dev/null; then [ -s out/figures/movie-displacement.mp4 ] || complain "no movie"; fi
+expect 2 "^scree plot: --movie: .*no field 'sped' \(accepted: speed\)$" "$scree" plot out --movie sped
+expect 2 '^scree plot: --at: does not go with --movie' "$scree" plot out --movie speed --at end
+
 # --- a run that is interrupted or killed and continued ends where an uninterrupted one does
 long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')
 "$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"

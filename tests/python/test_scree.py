@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import warnings
 from pathlib import Path
 
 try:
@@ -259,6 +260,19 @@ class Folders(unittest.TestCase):
         self.assertIn("peak_stress_ratio", caught.exception.expected)
         with self.assertRaises(scree.FileError):
             scree.Run(SCRATCH / "none")
+
+    def test_charts_scenes_and_movies(self):
+        run = self.run_
+        self.assertEqual(run.chart("p,q", x="axial_strain", stage="compress").suffix, ".svg")
+        self.assertTrue(run.scene("speed", at="start").is_file())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # where there is no ffmpeg
+            self.assertTrue(run.movie("speed").exists())
+        frames = sorted((run.folder / "figures" / "movie-speed").glob("frame-*.png"))
+        self.assertEqual(len(frames), len(run.snapshots))
+        with self.assertRaises(scree.InputError) as caught:
+            run.movie("sped")
+        self.assertIn("speed", str(caught.exception))
 
     def test_series(self):
         series = self.run_.series

@@ -49,7 +49,7 @@ static size_t address_space(void)
 static int draw_within(size_t room)
 {
     scree_error error = {0};
-    const scree_page page = {WIDTH, WIDTH, DISCS, draw, NULL};
+    const scree_page page = {WIDTH, WIDTH, DISCS, draw, NULL, 0};
     const struct rlimit limit = {address_space() + room, RLIM_INFINITY};
     if (setrlimit(RLIMIT_AS, &limit) != 0) return 2;
     scree_status status = scree_page_write("page", &page, &error);
