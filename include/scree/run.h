@@ -93,6 +93,13 @@ SCREE_API scree_status scree_run_data_attributes(const char *directory, const ch
                                                                const char *text),
                                                  void *user, scree_error *error);
 
+/// Writes the snapshots of a run, of the stage with this name or kind (NULL: all), as a dump of LAMMPS: a frame a
+/// snapshot, columns id type x y z radius vx vy vz omegax omegay omegaz mark, in the plane angle, in SI units. *frames:
+/// how many. Errors: SCREE_ERROR_IO; SCREE_ERROR_INPUT: no snapshot, no such stage (`accepted` holds all), a cell whose
+/// vectors do not lie as LAMMPS needs it; memory.
+SCREE_API scree_status scree_export_lammps(const char *directory, const char *stage, const char *path, size_t *frames,
+                                           scree_error *error);
+
 /// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL. Errors: SCREE_ERROR_IO,
 /// SCREE_ERROR_INPUT while a run goes on there.
 SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,

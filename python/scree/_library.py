@@ -160,7 +160,7 @@ _FUNCTIONS = {
     "scree_simulation_remove_force": "psp:S", "scree_loads_add_many": "pzppp:V", "scree_simulation_set": "ppp:S",
     "scree_simulation_save": "psp:S", "scree_simulation_restore": "psp:S", "scree_simulation_open_run": "sppp:S",
     "scree_run": "ppp:S", "scree_restart": "spp:S", "scree_result_get": "sspzp:S", "scree_result_visit": "sppp:S",
-    "scree_plot_only": "ssppp:S", "scree_plot_chart": "spppp:S", "scree_plot_field": "spppp:S",
+    "scree_export_lammps": "ssspp:S", "scree_plot_only": "ssppp:S", "scree_plot_chart": "spppp:S", "scree_plot_field": "spppp:S",
     "scree_plot_movie": "spppp:S", "scree_run_data_visit": "ssppp:S", "scree_run_data_read": "ssppp:S",
     "scree_run_data_attributes": "ssppp:S",
     "scree_sweep_read": "sppp:S", "scree_sweep_free": "p:V", "scree_sweep_builtin_count": ":z",

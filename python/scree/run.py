@@ -4,7 +4,7 @@ from __future__ import annotations
 import csv
 import re
 import warnings
-from ctypes import byref, c_void_p, create_string_buffer
+from ctypes import byref, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Optional
 
@@ -199,6 +199,13 @@ class Run:
         tell = LINE(lambda user, path: paths.append(Path(text(path))))
         call(lib.scree_plot_only, encode(self.folder), ",".join(names).encode() if names else None, tell, None)
         return paths
+
+    def export_lammps(self, path: Optional[Folder] = None, *, stage: Optional[str] = None) -> Path:
+        """Writes the snapshots, those of a stage or all, as a dump of LAMMPS, for OVITO; its path."""
+        file = Path(path) if path is not None else self.folder / "snapshots.lammpstrj"
+        frames = c_size_t()
+        call(lib.scree_export_lammps, encode(self.folder), stage.encode() if stage else None, encode(file), byref(frames))
+        return file
 
     def chart(self, y: str, *, x: Optional[str] = None, stage: Optional[str] = None) -> Path:
         """Draws columns of the series, "p,q", over another one (time), of rows of these stages; its path."""

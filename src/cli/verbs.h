@@ -65,6 +65,10 @@ const scree_verb *scree_verb_at(size_t number);
 extern const scree_verb scree_theory_verbs[];
 extern const size_t scree_theory_verbs_count;
 
+/// Those that are asked of a run that is there (verbs_results.c).
+extern const scree_verb scree_results_verbs[];
+extern const size_t scree_results_verbs_count;
+
 /// Options that every verb has.
 extern const scree_verb_option scree_common_options[];
 
@@ -101,6 +105,7 @@ scree_status scree_verb_reproduce(const struct scree_command *command);
 scree_status scree_verb_report(const struct scree_command *command);
 scree_status scree_verb_measure(const struct scree_command *command);
 scree_status scree_verb_get(const struct scree_command *command);
+scree_status scree_verb_export(const struct scree_command *command);
 scree_status scree_verb_plot(const struct scree_command *command);
 scree_status scree_verb_help(const struct scree_command *command);
 

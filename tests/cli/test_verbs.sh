@@ -8,7 +8,7 @@ small=(--quick --set particles.count=100 --set 'stages.compress.strain=1 %' --se
     --set 'measure.windows=[]' --no-figures)
 
 # --- help, all from one table
-verbs=(list new check stability moduli "theory lattice" "theory ife" "theory bcc" "theory fpa" "theory osl" "theory wedge" "theory flamant" "theory layer" run sweep reproduce report get measure plot help)
+verbs=(list new check stability moduli "theory lattice" "theory ife" "theory bcc" "theory fpa" "theory osl" "theory wedge" "theory flamant" "theory layer" run sweep reproduce report get measure export plot help)
 expect 0 'Usage: scree VERB' "$scree" --help
 for verb in "${verbs[@]}"; do grep -qE "^  $verb " <<<"$output" || complain "--help does not name $verb"; done
 expect 2 'Usage: scree VERB' "$scree"

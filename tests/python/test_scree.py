@@ -261,6 +261,12 @@ class Folders(unittest.TestCase):
         with self.assertRaises(scree.FileError):
             scree.Run(SCRATCH / "none")
 
+    def test_dump_of_lammps(self):
+        dump = self.run_.export_lammps()
+        self.assertEqual(dump.read_text().count("ITEM: TIMESTEP"), len(self.run_.snapshots))
+        with self.assertRaises(scree.InputError):
+            self.run_.export_lammps(stage="none")
+
     def test_charts_scenes_and_movies(self):
         run = self.run_
         self.assertEqual(run.chart("p,q", x="axial_strain", stage="compress").suffix, ".svg")

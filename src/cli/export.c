@@ -1,0 +1,20 @@
+/// scree export DIR [--stage STAGE] [-o FILE]: snapshots as a dump of LAMMPS.
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+#include <limits.h>
+#include <stdio.h>
+
+scree_status scree_verb_export(const scree_command *command)
+{
+    scree_error error = {0};
+    char standard[PATH_MAX];
+    size_t frames;
+    const char *directory = command->argument[0], *path = scree_command_value(command, "output");
+    (void)snprintf(standard, sizeof standard, "%.*s/snapshots.lammpstrj", PATH_MAX - 32, directory);
+    if (!path) path = standard;
+    if (scree_export_lammps(directory, scree_command_value(command, "stage"), path, &frames, &error))
+        return scree_terminal_error("export", &error);
+    printf("%s: %zu frame%s\n", path, frames, frames == 1 ? "" : "s");
+    return SCREE_OK;
+}
