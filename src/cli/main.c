@@ -1,6 +1,7 @@
 /// The program `scree`: finds the verb, reads the rest of the command line against its row of the table, calls it.
 #include "cli/command.h"
 #include "cli/help.h"
+#include "cli/launch.h"
 #include "cli/terminal.h"
 
 #include <errno.h>
@@ -47,8 +48,10 @@ static scree_status call_verb(const scree_verb *verb, int count, char *const *wo
         status = scree_terminal_error(verb->name, &error);
     else if (scree_command_has(&command, "help"))
         scree_help_write_verb(stdout, verb);
-    else
+    else if (!verb->alone || scree_launch_is_single(verb->name))
         status = verb->function(&command);
+    else
+        status = SCREE_ERROR_INPUT;
     scree_command_free(&command);
     return status;
 }

@@ -20,7 +20,8 @@ static void ask_to_stop(int signal_number)
     errno = number;
 }
 
-/// The system repeats these by itself, SIGXCPU every second, SIGHUP from shell and kernel: a second one ends nothing.
+/// These come again by themselves, SIGXCPU every second, SIGHUP from shell and kernel, SIGUSR1 where a batch system and
+/// a script both send it: a second one ends nothing.
 static void ask_to_stop_again(int signal_number)
 {
     stop_signal = signal_number;
@@ -39,6 +40,7 @@ void scree_stop_catch(void)
     (void)sigaction(SIGTERM, &action, NULL);
     struct sigaction lasting = {.sa_handler = ask_to_stop_again, .sa_flags = SA_RESTART};
     (void)sigaction(SIGXCPU, &lasting, NULL);
+    (void)sigaction(SIGUSR1, &lasting, NULL);
     // nohup: the terminal may close.
     bool ignored = sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler == SIG_IGN;
     if (!ignored) (void)sigaction(SIGHUP, &lasting, NULL);

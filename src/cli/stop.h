@@ -1,5 +1,5 @@
-/// Asking a run or a sweep to stop: SIGINT, SIGTERM, SIGHUP and SIGXCPU ask, a second SIGINT or SIGTERM
-/// ends the program at once.
+/// Asking a run or a sweep to stop: SIGINT, SIGTERM, SIGUSR1, SIGHUP and SIGXCPU ask, a second SIGINT or SIGTERM
+/// ends the program at once. SIGUSR1 is what a batch system sends some time before a job's limit (docs/clusters.md).
 #ifndef SCREE_CLI_STOP_H
 #define SCREE_CLI_STOP_H
 

@@ -201,7 +201,8 @@ static const scree_verb run_verbs[] = {
             "listed in `files.txt` are removed, and nothing else. While a run goes on its folder is locked: a second "
             "run, a restart or `scree plot` there ends at once and says who holds it.\n\n"
             "Progress goes to standard error: one line that is rewritten on a terminal, plain lines every ten seconds "
-            "elsewhere. The first interrupt (Ctrl-C, SIGTERM; SIGHUP, SIGXCPU) stops the run after a checkpoint, a "
+            "elsewhere. The first interrupt (Ctrl-C, SIGTERM; SIGUSR1, SIGHUP, SIGXCPU) stops the run after a "
+            "checkpoint, a "
             "second "
             "Ctrl-C or SIGTERM ends it at once. `scree run --restart DIR` continues a run that was stopped or killed, "
             "bit for bit.",
@@ -241,6 +242,7 @@ static const scree_verb run_verbs[] = {
                     {"scree run --restart out", "continue after an interrupt"},
                     {"scree run longer.yaml --after out -o longer", "the same case with stages added or changed"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .alone = true,
         .function = scree_verb_run,
     },
     {
@@ -291,6 +293,7 @@ static const scree_verb run_verbs[] = {
                      "solid_fraction --target 0.83",
                      "friction that confines to a solid fraction; scree run --after goes on"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .alone = true,
         .function = scree_verb_bisect,
     },
     {
@@ -333,6 +336,7 @@ static const scree_verb run_verbs[] = {
                     {"scree sweep friction.yaml -o friction --realisations 10", "more realisations, beside those done"},
                     {"scree sweep friction.yaml -o friction --slurm friction.sh", "a job array for a cluster"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .alone = true,
         .function = scree_verb_sweep,
     },
     {
@@ -359,6 +363,7 @@ static const scree_verb run_verbs[] = {
         .example = {{"scree reproduce", "all quick forms"},
                     {"scree reproduce --full --only triaxial", "one experiment with the source's numbers"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .alone = true,
         .function = scree_verb_reproduce,
     },
     {

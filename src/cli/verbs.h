@@ -54,6 +54,7 @@ typedef struct scree_verb {
     scree_verb_argument argument[SCREE_VERB_ROWS];
     scree_verb_option option[SCREE_VERB_ROWS];
     scree_verb_example example[SCREE_VERB_ROWS];
+    bool alone;    ///< computes: one process, not several that a launcher of MPI started
     int status[6]; ///< exit statuses beside 0, ends with 0
     scree_status (*function)(const struct scree_command *command);
 } scree_verb;

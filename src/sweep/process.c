@@ -12,7 +12,7 @@
 
 static void default_signals(void)
 {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGQUIT, SIGPIPE, SIGXCPU, SIGXFSZ};
+    static const int numbers[] = {SIGINT, SIGTERM, SIGQUIT, SIGUSR1, SIGPIPE, SIGXCPU, SIGXFSZ};
     struct sigaction action = {.sa_handler = SIG_DFL};
     sigset_t none;
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) (void)sigaction(numbers[i], &action, NULL);
