@@ -11,6 +11,8 @@
 #include "io/result_names.h"
 #include "run/columns.h"
 
+#include <scree/scree.h>
+
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -306,6 +308,48 @@ static scree_status read_text(const input *in, scree_sweep **out, scree_problems
     return SCREE_OK;
 }
 
+/// Whether a text begins a line with this key.
+static bool has_key(const char *text, const char *key)
+{
+    const size_t length = strlen(key);
+    for (const char *line = text; line; line = strchr(line, '\n')) {
+        if (*line == '\n') line++;
+        if (strncmp(line, key, length) == 0 && line[length] == ':') return true;
+    }
+    return false;
+}
+
+static bool is_built_in_case(const char *name)
+{
+    for (size_t k = 0; k < scree_templates_count; k++)
+        if (strcmp(scree_templates[k].name, name) == 0) return true;
+    return false;
+}
+
+/// What is a case, or nothing that is known, is told as such, in place of the keys that it lacks.
+static scree_status refuse(const char *name, bool is_case, scree_problems **problems)
+{
+    scree_error error = {.status = SCREE_ERROR_INPUT};
+    const char *names[256];
+    size_t count = 0;
+    (void)snprintf(error.file, sizeof error.file, "%s", name);
+    if (is_case)
+        (void)snprintf(error.message, sizeof error.message,
+                       "this is a case, not a sweep: `scree run` runs it; a sweep names it as its `case`");
+    else {
+        while (count < scree_sweep_templates_count && count < sizeof names / sizeof *names) {
+            names[count] = scree_sweep_templates[count].name;
+            count++;
+        }
+        const char *nearest = scree_nearest(name, names, count);
+        (void)snprintf(error.message, sizeof error.message, "there is no file and no built-in sweep of this name");
+        (void)snprintf(error.accepted, sizeof error.accepted, "%s",
+                       nearest ? nearest : "scree list --sweeps names all");
+    }
+    if (problems && scree_problems_create(problems) == SCREE_OK) scree_problems_replace(*problems, &error);
+    return SCREE_ERROR_INPUT;
+}
+
 scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *options, scree_sweep **out,
                               scree_problems **problems)
 {
@@ -319,9 +363,12 @@ scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *
         in.embedded = true;
         return read_text(&in, out, problems);
     }
+    if (access(name, F_OK) != 0) return refuse(name, is_built_in_case(name), problems);
     scree_status status = scree_case_text(name, &bytes, &in.length, problems);
     in.text = bytes;
-    if (!status) status = read_text(&in, out, problems);
+    if (!status)
+        status = has_key(bytes, "scree") && !has_key(bytes, "sweep") ? refuse(name, true, problems)
+                                                                     : read_text(&in, out, problems);
     scree_release(&bytes);
     return status;
 }

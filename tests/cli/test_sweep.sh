@@ -38,7 +38,11 @@ expect 2 'wrong.yaml:18:[0-9]+: materials.0.fraction: .*did you mean .materials.
 expect 2 'does not go with' "$scree" sweep tiny.yaml --dry-run --collect
 expect 2 'no number of jobs|not a number of jobs' "$scree" sweep tiny.yaml --jobs 0
 expect 2 'a number from 0 to 3' "$scree" sweep tiny.yaml --member 4
-expect 2 'No such file' "$scree" sweep nothing.yaml
+expect 2 'there is no file and no built-in sweep of this name' "$scree" sweep nothing.yaml
+expect 2 '^biaxal-boundaries: .*\(accepted: biaxial-boundaries\)$' "$scree" sweep biaxal-boundaries
+expect 2 '^hopper: this is a case, not a sweep: ' "$scree" sweep hopper
+"$scree" new hopper >a-case.yaml
+expect 2 '^a-case.yaml: this is a case, not a sweep: ' "$scree" sweep a-case.yaml
 
 # --- a whole sweep, then nothing left to do
 expect 0 'means in s/table.csv' "$scree" sweep tiny.yaml -o s --jobs 2
