@@ -204,8 +204,8 @@ static void momentum_is_kept(void **unused)
     scree_case *c;
     const char *const overrides[] = {
         "gravity=[0, 0]", "particles.count=2", "contact.law=polygon_overlap",
-        "stages.0.bodies=[{position: [0.5 m, 0.5 m], spin: [0, 0, 30]}, {position: [0.52 m, "
-        "0.507 m], velocity: [-1, 0.2], angle: 0.3}]",
+        ("stages.0.bodies=[{position: [0.5 m, 0.5 m], spin: [0, 0, 30]}, {position: [0.52 m, "
+         "0.507 m], velocity: [-1, 0.2], angle: 0.3}]"),
         "stages.1.duration=0.01 s"};
     scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
     double before[3] = {0}, after[3] = {0};
@@ -362,7 +362,8 @@ static void what_does_not_go_together_is_refused(void **unused)
 {
     (void)unused;
     static const char *const wrong[][2] = {
-        {"contact.law=linear", "sharp corners: give particles.rounding (0.1, say), or take one of the laws of areas: polygon_overlap"},
+        {"contact.law=linear",
+         "sharp corners: give particles.rounding (0.1, say), or take one of the laws of areas: polygon_overlap"},
         {"particles.corners_max=5", "less than corners_min"},
         {"particles.corners_min=2", "too small"},
         {"particles.axis_ratio=0.9", "too small"},

@@ -349,7 +349,7 @@ static void contacts_hand_on_what_their_bodies_say(void **unused)
         assert_true(log(all.aside.value) > 0.7 * log(all.strong.value));
         // Only what is felt: exp(-6 / DECAY) is 6 diameters on the right and 3 on the left.
         scree_rotation_transmission_measure(&c.model, &c.state, &c.table, c.forced, 10, exp(-6 / DECAY), &near);
-        assert_true(near.weak.count < 0.5 * (double)near.strong.count && near.strong.count < all.strong.count);
+        assert_true((double)near.weak.count < 0.5 * (double)near.strong.count && near.strong.count < all.strong.count);
         destroy(&c);
     }
 }

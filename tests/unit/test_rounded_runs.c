@@ -197,8 +197,8 @@ static void momentum_is_kept(void **unused)
     scree_case *c;
     const char *const overrides[] = {
         "gravity=[0, 0]", "particles.count=2",
-        "stages.0.bodies=[{position: [0.5 m, 0.5 m], spin: [0, 0, 30]}, {position: [0.522 m, "
-        "0.507 m], velocity: [-1, 0.2], angle: 0.3}]",
+        ("stages.0.bodies=[{position: [0.5 m, 0.5 m], spin: [0, 0, 30]}, {position: [0.522 m, "
+         "0.507 m], velocity: [-1, 0.2], angle: 0.3}]"),
         "stages.1.duration=0.01 s"};
     scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
     double before[3] = {0}, after[3] = {0};
@@ -229,8 +229,8 @@ static void faces_bounce_as_the_law_says(void **unused)
     (void)unused;
     scree_case *c;
     const char *const overrides[] = {"gravity=[0, 0]", "particles.count=2", "integrator.step=1e-6 s",
-                                     "stages.0.bodies=[{position: [0.5 m, 0.5 m]}, {position: [0.524 m, 0.5 m], "
-                                     "velocity: [-0.1, 0]}]",
+                                     ("stages.0.bodies=[{position: [0.5 m, 0.5 m]}, {position: [0.524 m, 0.5 m], "
+                                      "velocity: [-0.1, 0]}]"),
                                      "stages.1.duration=0.08 s"};
     scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
     (void)simulation_finish(&s);
@@ -362,8 +362,8 @@ static void cores_that_meet_stop_the_run(void **unused)
     (void)unused;
     scree_case *c;
     const char *const overrides[] = {"particles.count=2",
-                                     "stages.0.bodies=[{position: [0.5 m, 0.5 m]}, {position: [0.524 m, 0.507 m], "
-                                     "angle: 0.3, velocity: [-100, 0]}]",
+                                     ("stages.0.bodies=[{position: [0.5 m, 0.5 m]}, {position: [0.524 m, 0.507 m], "
+                                      "angle: 0.3, velocity: [-100, 0]}]"),
                                      "materials.0.young_modulus=1e4 Pa", "materials.0.restitution=1"};
     scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
     scree_error error = {0};
