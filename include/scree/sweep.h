@@ -56,6 +56,20 @@ typedef struct scree_sweep_options {
     void *user;
 } scree_sweep_options;
 
+/// What a sweep will cost.
+typedef struct scree_sweep_cost {
+    size_t members, unknown; ///< of them, whose time cannot be found before they run: it is left out
+    bool searches;           ///< each member is a search of several runs; times are those of one run of each
+    double seconds;          ///< of all members: processor time, each on one thread
+    double longest;          ///< s, of one
+    double memory;           ///< bytes, peak of one
+} scree_sweep_cost;
+
+/// Estimates it, with figures of the members or without, by setting the case of each point going for a moment, which
+/// takes some tenths of a second a point. Errors: as scree_case_summarise.
+SCREE_API scree_status scree_sweep_estimate_cost(const scree_sweep *sweep, bool figures, scree_sweep_cost *cost,
+                                                 scree_error *error);
+
 /// Runs what is missing of a sweep, each member as a process of its own, then collects. A finished member whose case is
 /// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. The processes are
 /// asked to stop when the thread that called this ends. Errors:

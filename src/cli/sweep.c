@@ -29,6 +29,34 @@ static void list_members(const scree_sweep *sweep)
     }
 }
 
+/// A time in the unit that suits it.
+static void print_time(FILE *file, double seconds)
+{
+    if (seconds < 120)
+        fprintf(file, "%.2g s", seconds);
+    else if (seconds < 7200)
+        fprintf(file, "%.3g min", seconds / 60);
+    else
+        fprintf(file, "%.3g h", seconds / 3600);
+}
+
+/// On standard error, so that the list can be run by a shell.
+static scree_status say_cost(const scree_command *command, const scree_sweep *sweep, scree_error *error)
+{
+    scree_sweep_cost cost;
+    scree_status status = scree_sweep_estimate_cost(sweep, !scree_command_has(command, "no-figures"), &cost, error);
+    if (status) return status;
+    fprintf(stderr, "%zu members%s: ", cost.members,
+            cost.searches ? ", each a search of some ten runs; one run of each" : "");
+    print_time(stderr, cost.seconds);
+    fputs(" of processor time, each on one thread; the longest ", stderr);
+    print_time(stderr, cost.longest);
+    fprintf(stderr, ", at most %.3g MB each", cost.memory / 1e6);
+    if (cost.unknown > 0) fprintf(stderr, "; %zu have a time that is not known before", cost.unknown);
+    fputc('\n', stderr);
+    return SCREE_OK;
+}
+
 static scree_status act(const scree_command *command, const scree_sweep *sweep, scree_sweep_command *call,
                         scree_error *error)
 {
@@ -36,7 +64,7 @@ static scree_status act(const scree_command *command, const scree_sweep *sweep, 
     long member = -1, most = (long)scree_sweep_member_count(sweep) - 1;
     if (scree_command_has(command, "dry-run")) {
         list_members(sweep);
-        return SCREE_OK;
+        return say_cost(command, sweep, error);
     }
     if (script) return scree_sweep_write_slurm(sweep, &call->read, &call->options, script, error);
     scree_status status = scree_command_number(command, "member", 0, most, &member, error);

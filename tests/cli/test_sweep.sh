@@ -30,11 +30,13 @@ END
 # --- what it amounts to, without running
 expect 0 '^003-friction=0.5-seed=2: scree run biaxial --quick .*--set materials.0.friction=0.5 --set seed=2$' \
     "$scree" sweep tiny.yaml --dry-run
-same "$(wc -l <<<"$output")" 4
-same "$("$scree" sweep tiny.yaml -n --realisations 3 | wc -l)" 6
+same "$("$scree" sweep tiny.yaml -n 2>/dev/null | wc -l)" 4
+same "$("$scree" sweep tiny.yaml -n --realisations 3 2>/dev/null | wc -l)" 6
 [ -e out ] && complain "--dry-run made a folder"
 sed 's/friction, v/fraction, v/' tiny.yaml >wrong.yaml
 expect 2 'wrong.yaml:18:[0-9]+: materials.0.fraction: .*did you mean .materials.0.friction.' "$scree" sweep wrong.yaml
+expect 0 '^4 members: [0-9.e-]+ s of processor time, each on one thread; the longest [0-9.e-]+ s, at most [0-9.]+ MB each$' \
+    "$scree" sweep tiny.yaml --dry-run
 expect 2 'does not go with' "$scree" sweep tiny.yaml --dry-run --collect
 expect 2 'no number of jobs|not a number of jobs' "$scree" sweep tiny.yaml --jobs 0
 expect 2 'a number from 0 to 3' "$scree" sweep tiny.yaml --member 4
