@@ -142,15 +142,20 @@ static void tell_triangle(const scree_average_view *view, scree_average_table *v
 static void tell_whole(const scree_average_view *view, scree_average_table *values)
 {
     const scree_average_sample *sample = view->sample;
-    double contacts = 0, averages, above;
-    for (size_t p = 0; p < sample->bodies; p++)
-        if (sample->grain[p].counted) contacts += sample->own[p].contacts;
+    double contacts = 0, averages, above, solid = 0, weighted = 0;
+    for (size_t p = 0; p < sample->bodies; p++) {
+        if (!sample->grain[p].counted) continue;
+        contacts += sample->own[p].contacts;
+        solid += sample->grain[p].volume;
+        weighted += sample->grain[p].volume * sample->own[p].contacts;
+    }
     scree_average_plate_force(view, &averages, &above);
     scree_average_table_take(values, "time", "s", sample->time);
     scree_average_table_take(values, "grains", "1", (double)sample->counted);
     scree_average_table_take(values, "contacts", "1", (double)sample->contacts);
     scree_average_table_take(values, "coordination", "1", contacts / (double)sample->counted);
     scree_average_table_take(values, "volume_fraction", "1", sample->solid / view->surface.volume);
+    scree_average_table_take(values, "fabric_factor", "1", weighted / solid / (contacts / (double)sample->counted));
     scree_average_table_take(values, "unbalanced_ratio", "1", sample->unbalanced_ratio);
     scree_average_table_take(values, "element_side", "m", view->frame.side);
     scree_average_table_take(values, "element_grains", "1", view->grains);

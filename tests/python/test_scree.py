@@ -319,6 +319,11 @@ class Folders(unittest.TestCase):
         self.assertTrue(measured.lines)
         self.assertIn("cuts", measured.tables())
         self.assertGreater(len(measured["cuts"]), 3)
+        last = self.run_.snapshot()
+        volume, contacts = np.asarray(last["radius"]) ** 2, np.asarray(last["coordination"])
+        factor = (volume * contacts).mean() / (volume.mean() * contacts.mean())
+        self.assertNotAlmostEqual(factor, 1, delta=1e-3)
+        self.assertAlmostEqual(measured["values"]["fabric_factor"][0], factor, delta=1e-8)
         with self.assertRaises(scree.InputError):
             scree.measure.runs(self.run_, fields="stres")
 
