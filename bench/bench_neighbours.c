@@ -124,7 +124,7 @@ static void measure_skin(const scree_model *model, scree_state *state, scree_wor
 
 static void measure(size_t count, int dimension, int threads)
 {
-    scree_model model = {.dimension = dimension, .mean_radius = 1};
+    scree_model model = {.dimension = dimension, .mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_state state;
     scree_work work;
     scree_error error;

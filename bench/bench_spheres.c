@@ -73,8 +73,12 @@ static void open_model(sample *s)
                                           .own = own[0]};
     mindlin_of(s)->restitution = 0.3;
     s->config = (scree_config){.dimension = 3, .materials = &s->material, .material_count = 1};
-    s->config.particles = (scree_config_particles){
-        .material = name, .count = 1, .distribution = SCREE_SLOT_uniform, .thickness = NAN, .own = s->sizes};
+    s->config.particles = (scree_config_particles){.shape = SCREE_SLOT_sphere,
+                                                   .material = name,
+                                                   .count = 1,
+                                                   .distribution = SCREE_SLOT_uniform,
+                                                   .thickness = NAN,
+                                                   .own = s->sizes};
     *(scree_size_limits *)(uintptr_t)scree_config_own(&scree_module_uniform, "particles", s->sizes) =
         (scree_size_limits){0.5e-3, 1e-3};
     s->config.contact = (scree_config_contact){.law = SCREE_SLOT_hertz_mindlin, .own = own[1]};
