@@ -4,6 +4,7 @@
 #define SCREE_MEASURE_H
 
 #include <scree/api.h>
+#include <scree/case.h>
 #include <scree/error.h>
 
 #include <stdbool.h>
@@ -33,14 +34,20 @@ typedef struct scree_measure_options {
     bool mirror;        ///< cuts are means of each run and its mirror image about the axis
     const char *output; ///< folder; "measure" in that of the run, or where it is called with several runs
     bool no_figures;
-    void (*message)(void *user, const char *line); ///< what was found, line by line; may be NULL
+    // of files of grains
+    const scree_case *sample_case; ///< its materials and law are those of the grains
+    const char *contacts;          ///< file of their contacts; NULL: overlaps make them
+    const char *contact_columns;   ///< "first,second,fx,fy,fz,x,y,z": names of its columns, - what is left out
+    const char *length_unit, *time_unit, *force_unit; ///< "1 mm", of one unit of the files; SI
+    void (*message)(void *user, const char *line);    ///< what was found, line by line; may be NULL
     void *user;
 } scree_measure_options;
 
 /// Whether `scree_measure` could read these options. Errors: SCREE_ERROR_INPUT with the option as field.
 SCREE_API scree_status scree_measure_check(const scree_measure_options *options, scree_error *error);
 
-/// Measures the runs in these folders and writes tables, values and figures (docs/output.md, "Measured averages").
+/// Measures the runs in these folders, or the grains in these files (of Scree, LAMMPS, LIGGGHTS, YADE, or tables), which
+/// need a `sample_case`, and writes tables, values and figures (docs/output.md, "Measured averages").
 /// Several runs are an ensemble: means with bootstrap bands over them. Errors: SCREE_ERROR_INPUT with the option as
 /// field; SCREE_ERROR_IO; memory.
 SCREE_API scree_status scree_measure(const char *const *runs, size_t count, const scree_measure_options *options,

@@ -99,7 +99,10 @@ SCREE_API scree_status scree_run_data_attributes(const char *directory, const ch
 /// vectors do not lie as LAMMPS needs it; memory.
 SCREE_API scree_status scree_export_lammps(const char *directory, const char *stage, const char *path, size_t *frames,
                                            scree_error *error);
-
+/// The same of their contacts, as a local dump: ids from 1, a second of -1 is a wall or a body of a membrane; force [N]
+/// on the first; point [m]. `scree_measure` reads it beside the dump of the grains.
+SCREE_API scree_status scree_export_contacts(const char *directory, const char *stage, const char *path, size_t *frames,
+                                             scree_error *error);
 /// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL. Errors: SCREE_ERROR_IO,
 /// SCREE_ERROR_INPUT while a run goes on there.
 SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,

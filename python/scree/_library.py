@@ -102,7 +102,9 @@ class MeasureOptions(Structure):
     _fields_ = [("fields", c_char_p), ("cuts", c_char_p), ("element", c_char_p), ("grid", c_char_p),
                 ("kernel", c_char_p), ("sizes", c_char_p), ("at", c_char_p), ("start", c_char_p), ("fit", c_char_p),
                 ("axis", c_char_p), ("points", c_long), ("threads", c_int), ("two_slopes", c_bool), ("mirror", c_bool),
-                ("output", c_char_p), ("no_figures", c_bool), ("message", LINE), ("user", c_void_p)]
+                ("output", c_char_p), ("no_figures", c_bool), ("sample_case", c_void_p), ("contacts", c_char_p),
+                ("contact_columns", c_char_p), ("length_unit", c_char_p), ("time_unit", c_char_p),
+                ("force_unit", c_char_p), ("message", LINE), ("user", c_void_p)]
 
 
 class PlotColumns(Structure):
@@ -160,7 +162,7 @@ _FUNCTIONS = {
     "scree_simulation_remove_force": "psp:S", "scree_loads_add_many": "pzppp:V", "scree_simulation_set": "ppp:S",
     "scree_simulation_save": "psp:S", "scree_simulation_restore": "psp:S", "scree_simulation_open_run": "sppp:S",
     "scree_run": "ppp:S", "scree_restart": "spp:S", "scree_result_get": "sspzp:S", "scree_result_visit": "sppp:S",
-    "scree_export_lammps": "ssspp:S", "scree_plot_only": "ssppp:S", "scree_plot_chart": "spppp:S", "scree_plot_field": "spppp:S",
+    "scree_export_lammps": "ssspp:S", "scree_export_contacts": "ssspp:S", "scree_plot_only": "ssppp:S", "scree_plot_chart": "spppp:S", "scree_plot_field": "spppp:S",
     "scree_plot_movie": "spppp:S", "scree_run_data_visit": "ssppp:S", "scree_run_data_read": "ssppp:S",
     "scree_run_data_attributes": "ssppp:S",
     "scree_sweep_read": "sppp:S", "scree_sweep_free": "p:V", "scree_sweep_builtin_count": ":z",

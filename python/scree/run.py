@@ -200,11 +200,15 @@ class Run:
         call(lib.scree_plot_only, encode(self.folder), ",".join(names).encode() if names else None, tell, None)
         return paths
 
-    def export_lammps(self, path: Optional[Folder] = None, *, stage: Optional[str] = None) -> Path:
-        """Writes the snapshots, those of a stage or all, as a dump of LAMMPS, for OVITO; its path."""
+    def export_lammps(self, path: Optional[Folder] = None, *, stage: Optional[str] = None,
+                      contacts: Optional[Folder] = None) -> Path:
+        """Writes the snapshots, those of a stage or all, as a dump of LAMMPS, for OVITO, and their contacts as a local
+        dump into the file `contacts`; path of the dump."""
         file = Path(path) if path is not None else self.folder / "snapshots.lammpstrj"
-        frames = c_size_t()
-        call(lib.scree_export_lammps, encode(self.folder), stage.encode() if stage else None, encode(file), byref(frames))
+        frames, name = c_size_t(), stage.encode() if stage else None
+        call(lib.scree_export_lammps, encode(self.folder), name, encode(file), byref(frames))
+        if contacts is not None:
+            call(lib.scree_export_contacts, encode(self.folder), name, encode(contacts), byref(frames))
         return file
 
     def chart(self, y: str, *, x: Optional[str] = None, stage: Optional[str] = None) -> Path:

@@ -1,4 +1,4 @@
-/// scree export DIR [--stage STAGE] [-o FILE]: snapshots as a dump of LAMMPS.
+/// scree export DIR [--stage STAGE] [-o FILE] [--contacts FILE]: snapshots as a dump of LAMMPS.
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -16,5 +16,9 @@ scree_status scree_verb_export(const scree_command *command)
     if (scree_export_lammps(directory, scree_command_value(command, "stage"), path, &frames, &error))
         return scree_terminal_error("export", &error);
     printf("%s: %zu frame%s\n", path, frames, frames == 1 ? "" : "s");
+    if (!(path = scree_command_value(command, "contacts"))) return SCREE_OK;
+    if (scree_export_contacts(directory, scree_command_value(command, "stage"), path, &frames, &error))
+        return scree_terminal_error("export", &error);
+    printf("%s: contacts of %zu frame%s\n", path, frames, frames == 1 ? "" : "s");
     return SCREE_OK;
 }

@@ -43,7 +43,7 @@ typedef struct scree_verb_example {
     const char *meaning;
 } scree_verb_example;
 
-enum { SCREE_VERB_ROWS = 20 }; ///< most arguments, options, examples of a verb; each list ends with an empty row
+enum { SCREE_VERB_ROWS = 32 }; ///< most arguments, options, examples of a verb; each list ends with an empty row
 
 struct scree_command;
 

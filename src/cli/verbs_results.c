@@ -32,11 +32,17 @@ const scree_verb scree_results_verbs[] = {
             "Several runs are an ensemble: means over them with 95 % bands (bootstrap over runs), and under piles the "
             "dip of the vertical pressure, 1 - its value on the axis over its largest, with its interval and p, a pile "
             "and its mirror image being one sample.\n\n"
+            "A RUN may also be a file of grains: a LAMMPS or LIGGGHTS dump or data file, YADE's export, a table "
+            "(as `prepare: {method: file}` reads them; tilted boxes, too). It needs `--case`, whose materials and law "
+            "are theirs. Contacts are those of `--contacts`, with ids of grains and forces on the first (a second "
+            "below 0: a wall), else those of overlaps under the law, without history: springs along contacts bear "
+            "nothing then, and walls are not there. `--at #STEP` is a frame.\n\n"
             "Writes `values.csv`, `cuts.csv`, `map.csv`, `kernel.csv`, `forces.csv`, `friction.csv`, `rose.csv`, "
             "`sizes.csv`, `scatter.csv`, `dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md "
             "lists the columns, "
             "docs/theory/averages.md has the definitions. Stresses are tension positive, pressures the opposite.",
-        .argument = {{"RUN", "folder of a finished run; several are an ensemble", SCREE_VALUE_FOLDER, false, true}},
+        .argument = {{"RUN", "folder of a finished run, or file of grains; several are an ensemble", SCREE_VALUE_FOLDER,
+                      false, true}},
         .option = {{.name = "fields",
                     .value = "NAME,...",
                     .meaning = "density, coordination, stress, fabric, inertia, velocity, kinetic (stress of the "
@@ -92,13 +98,33 @@ const scree_verb scree_results_verbs[] = {
                     .meaning = "folder of tables and figures",
                     .preset = "RUN/measure, of several runs measure",
                     .kind = SCREE_VALUE_FOLDER},
+                   {.name = "case",
+                    .value = "CASE",
+                    .meaning = "of files of grains: their materials and the law of their contacts"},
+                   {.name = "set",
+                    .value = "KEY=VALUE",
+                    .meaning = "change one value of that case; may be repeated",
+                    .repeatable = true},
+                   {.name = "contacts",
+                    .value = "FILE",
+                    .meaning = "their contacts, a table or a local dump",
+                    .preset = "those of overlaps"},
+                   {.name = "contact-columns",
+                    .value = "NAMES",
+                    .meaning = "columns of that file: first,second,fx,fy,fz,x,y,z, - what is left out; "
+                               "forces of one name are added",
+                    .preset = "those that it names"},
+                   {.name = "length-unit", .value = "UNIT", .meaning = "of those files, such as mm", .preset = "m"},
+                   {.name = "time-unit", .value = "UNIT", .meaning = "the same", .preset = "s"},
+                   {.name = "force-unit", .value = "UNIT", .meaning = "the same", .preset = "N"},
                    {.name = "no-figures", .meaning = "leave all figures out"}},
         .example = {{"scree measure out --fields stress,fabric,density --cuts 5 --element 150", "cuts through a pile"},
                     {"scree measure out --grid 100x50 --kernel 3", "maps of elements and of smooth fields"},
                     {"scree measure piles/* -o ensemble", "several piles, with bands and the dip"},
                     {"scree measure out --fields stress,fabric,elastic --from settle --at end",
                      "strains, changes of stress, elastic constants"},
-                    {"scree measure drum --at mean:10 --fields density,velocity", "a mean over time"}},
+                    {"scree measure drum --at mean:10 --fields density,velocity", "a mean over time"},
+                    {"scree measure dump.lammpstrj --case periodic-shear --kernel 3", "grains of LAMMPS"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_measure,
     },
@@ -120,7 +146,11 @@ const scree_verb scree_results_verbs[] = {
                     .letter = 'o',
                     .value = "FILE",
                     .meaning = "the dump",
-                    .preset = "DIR/snapshots.lammpstrj"}},
+                    .preset = "DIR/snapshots.lammpstrj"},
+                   {.name = "contacts",
+                    .value = "FILE",
+                    .meaning = "their contacts, too, as a local dump: first, second (-1: a wall), force on the first, "
+                               "point"}},
         .example = {{"scree export out", "all snapshots"},
                     {"scree export out --stage compress -o compress.lammpstrj", "those of one stage"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},

@@ -30,6 +30,11 @@ scree_status grain_text_refuse(const grain_text *text, size_t k, scree_error *er
 /// Cell `k` as a finite number. Errors: it is none.
 scree_status grain_text_number(const grain_text *text, size_t k, double *value, scree_error *error) SCREE_MUST_USE;
 
+/// Of the dumps of LAMMPS: whether a line is an item of this name, then what stands behind the name.
+char *grain_text_item(char *line, const char *name);
+/// Goes to the frame of this time step; NAN: to the last one. Errors: there is none.
+scree_status grain_text_find_frame(grain_text *text, double wanted, scree_error *error) SCREE_MUST_USE;
+
 /// What a column of a file holds.
 typedef struct grain_meaning {
     const char *name;

@@ -34,8 +34,13 @@ typedef struct scree_grains {
     char kind_name[SCREE_GRAIN_KINDS][64];
     size_t kinds;
     bool sized;          ///< the file says radii
+    int64_t *id;         ///< of each, rising; NULL: the file does not say, they are numbered from 0
+    double time;         ///< s, of a dump; 0: the file does not say
     bool bounded;        ///< there is a box
     double bounds[3][2]; ///< m, its lower and upper sides
+    double tilt[3];      ///< m, of a box that is sheared: xy, xz, yz as LAMMPS has them
+    bool sided;          ///< the file says in which directions the box repeats itself
+    unsigned periodic;   ///< these, bits 0, 1, 2
     const char *format;  ///< name of the format
 } scree_grains;
 
@@ -55,5 +60,12 @@ extern const char *const scree_grains_formats[];
 scree_status scree_grains_read(const char *path, const scree_grains_options *options, scree_grains *grains,
                                scree_error *error) SCREE_MUST_USE;
 void scree_grains_destroy(scree_grains *grains);
+
+/// Place among the `count` names of materials of what a kind of the file means: the same name, or where the name is
+/// the number k the k-th (YADE counts from 0), or the only one. -1: there is none.
+int64_t scree_grains_find_material(const scree_grains *grains, size_t kind, const char *const *names, size_t count);
+
+/// Whether the grains lie in a plane, as those of a file without z do, and from where to where along z [m].
+bool scree_grains_are_plane(const scree_grains *grains, double *lower, double *upper);
 
 #endif

@@ -34,14 +34,6 @@ static bool is_dump(const char *bytes)
     return strncmp(bytes, "ITEM: ", 6) == 0;
 }
 
-/// Whether a line is an item of this name; what stands behind the name.
-static char *item(char *line, const char *name)
-{
-    const size_t length = strlen(name);
-    if (strncmp(line, "ITEM: ", 6) != 0 || strncmp(line + 6, name, length) != 0) return NULL;
-    return line + 6 + length;
-}
-
 static void read_column(const char *name, const scree_grains_options *options, const scree_grains *g, grain_rows *rows,
                         size_t k)
 {
@@ -61,20 +53,53 @@ static void read_column(const char *name, const scree_grains_options *options, c
         if (rows->to[other] == rows->to[k]) rows->to[k] = GRAIN_IGNORED; // x and xu: the first
 }
 
-static scree_status read_bounds(grain_text *text, const scree_grains_options *options, scree_grains *g,
-                                scree_error *error)
+/// "xy xz yz pp pp ff": whether there are tilts, and in which directions the box repeats itself.
+static bool read_sides(const char *names, scree_grains *g)
+{
+    static const char *const tilts = " xy xz yz";
+    const bool tilted = strncmp(names, tilts, strlen(tilts)) == 0;
+    char sides[3][3];
+    g->sided = sscanf(names + (tilted ? strlen(tilts) : 0), "%2s %2s %2s", sides[0], sides[1], sides[2]) == 3;
+    for (int c = 0; c < 3 && g->sided; c++) g->periodic |= (unsigned)(strcmp(sides[c], "pp") == 0) << c;
+    return tilted;
+}
+
+/// The bounds of a tilted box are those of the box around it.
+static void make_bounds_of_box(scree_grains *g)
+{
+    const double *t = g->tilt, corner[] = {0, t[0], t[1], t[0] + t[1]};
+    double least = 0, most = 0;
+    for (int k = 0; k < 4; k++) {
+        least = fmin(least, corner[k]);
+        most = fmax(most, corner[k]);
+    }
+    g->bounds[0][0] -= least;
+    g->bounds[0][1] -= most;
+    g->bounds[1][0] -= fmin(0, t[2]);
+    g->bounds[1][1] -= fmax(0, t[2]);
+}
+
+static scree_status read_bounds(grain_text *text, const char *names, const scree_grains_options *options,
+                                scree_grains *g, scree_error *error)
 {
     scree_status status = SCREE_OK;
+    const size_t needed = read_sides(names, g) ? 3 : 2;
     g->bounded = true;
     for (int c = 0; c < 3 && !status; c++) {
-        if (!grain_text_line(text) || text->cells < 2)
+        if (!grain_text_line(text) || text->cells < needed)
             return grain_text_refuse(text, SIZE_MAX, error, "the bounds of the box are not whole");
-        if (text->cells > 2)
-            return grain_text_refuse(text, 2, error, "the box is tilted; a box with right angles is needed");
         for (size_t k = 0; k < 2 && !status; k++) status = grain_text_number(text, k, &g->bounds[c][k], error);
+        if (!status && needed == 3) status = grain_text_number(text, 2, &g->tilt[c], error);
         for (int k = 0; k < 2; k++) g->bounds[c][k] *= options->length;
+        g->tilt[c] *= options->length;
     }
+    make_bounds_of_box(g);
     return status;
+}
+
+static bool is_scaled(const char *name)
+{
+    return strcmp(name, scaled[0]) == 0 || strcmp(name, scaled[1]) == 0 || strcmp(name, scaled[2]) == 0;
 }
 
 static scree_status read_atoms(grain_text *text, char *names, size_t count, const scree_grains_options *options,
@@ -84,6 +109,9 @@ static scree_status read_atoms(grain_text *text, char *names, size_t count, cons
     grain_text_cut(text, names);
     rows.cells = text->cells;
     for (size_t k = 0; k < text->cells; k++) read_column(text->cell[k], options, g, &rows, k);
+    for (size_t k = 0; k < text->cells; k++)
+        if (is_scaled(text->cell[k]) && (g->tilt[0] != 0 || g->tilt[1] != 0 || g->tilt[2] != 0))
+            return grain_text_refuse(text, k, error, "scaled places in a tilted box are not known: dump x, y, z");
     scree_status status = grain_rows_begin(&rows, count, error);
     for (size_t i = 0; i < count && !status; i++) {
         if (!grain_text_line(text))
@@ -95,52 +123,21 @@ static scree_status read_atoms(grain_text *text, char *names, size_t count, cons
     return status;
 }
 
-/// Where a frame begins, and how it is called.
-typedef struct frame {
-    char *next;
-    int line;
-    double step;
-} frame;
-
-/// The frame that is asked for, or the last one.
-static scree_status find_frame(grain_text *text, double wanted, frame *found, scree_error *error)
-{
-    double first = NAN, last = NAN;
-    found->next = NULL;
-    const grain_text whole = *text;
-    for (char *line = text->next; line; text->line++) {
-        char *end = strchr(line, '\n');
-        if (strncmp(line, "ITEM: TIMESTEP", 14) == 0 && end) {
-            last = strtod(end + 1, NULL);
-            if (isnan(first)) first = last;
-            if (isnan(wanted) || last == wanted) *found = (frame){line, text->line, last};
-        }
-        line = end ? end + 1 : NULL;
-    }
-    text->line = whole.line;
-    if (found->next) return SCREE_OK;
-    if (isnan(last)) return grain_text_refuse(text, SIZE_MAX, error, "the dump has no frame");
-    return grain_text_refuse(text, SIZE_MAX, error,
-                             "the dump has no frame of time step %.15g; its frames go from %.15g to %.15g", wanted,
-                             first, last);
-}
-
 static scree_status read_dump(grain_text *text, const scree_grains_options *options, scree_grains *g,
                               scree_error *error)
 {
-    frame at = {0};
-    scree_status status = find_frame(text, options->frame, &at, error);
-    if (status) return status;
-    text->next = at.next;
-    text->line = at.line;
     double count = 0;
-    for (char *line, *names; (line = grain_text_raw(text)) && !status;) {
-        if (item(line, "NUMBER OF ATOMS"))
+    scree_status status = grain_text_find_frame(text, options->frame, error);
+    for (char *line, *names; !status && (line = grain_text_raw(text));) {
+        if (grain_text_item(line, "NUMBER OF ATOMS"))
             status = grain_text_line(text) ? grain_text_number(text, 0, &count, error)
                                            : grain_text_refuse(text, SIZE_MAX, error, "the file ends here");
-        else if (item(line, "BOX BOUNDS"))
-            status = read_bounds(text, options, g, error);
-        else if ((names = item(line, "ATOMS")))
+        else if (grain_text_item(line, "TIME") && !grain_text_item(line, "TIMESTEP")) {
+            if (grain_text_line(text)) status = grain_text_number(text, 0, &g->time, error);
+            g->time *= options->time;
+        } else if ((names = grain_text_item(line, "BOX BOUNDS")))
+            status = read_bounds(text, names, options, g, error);
+        else if ((names = grain_text_item(line, "ATOMS")))
             return read_atoms(text, names, count > 0 ? (size_t)count : 0, options, g, error);
     }
     return status ? status : grain_text_refuse(text, SIZE_MAX, error, "the frame has no ITEM: ATOMS");

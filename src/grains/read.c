@@ -59,5 +59,6 @@ void scree_grains_destroy(scree_grains *grains)
 {
     for (int c = 0; c < SCREE_GRAIN_COLUMNS; c++) scree_release(&grains->column[c]);
     scree_release(&grains->kind);
+    scree_release(&grains->id);
     *grains = (scree_grains){0};
 }

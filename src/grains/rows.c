@@ -111,6 +111,8 @@ scree_status grain_rows_finish(grain_rows *rows, const grain_text *text, scree_e
         if (order[i].id == order[i + 1].id)
             status = grain_text_refuse(text, SIZE_MAX, error, "two grains have the id %lld", (long long)order[i].id);
     if (!status) status = permute(g, order, error);
+    if (!status) status = scree_allocate(&g->id, g->count, sizeof *g->id, error);
+    for (size_t i = 0; i < g->count && !status; i++) g->id[i] = order[i].id;
     scree_release(&order);
     return status;
 }

@@ -85,3 +85,36 @@ scree_status grain_text_number(const grain_text *text, size_t k, double *value, 
         return grain_text_refuse(text, k, error, "'%.40s' is not a finite number", text->cell[k]);
     return SCREE_OK;
 }
+
+// ---- dumps of LAMMPS -----------------------------------------------------------------------------------------------
+
+char *grain_text_item(char *line, const char *name)
+{
+    const size_t length = strlen(name);
+    if (strncmp(line, "ITEM: ", 6) != 0 || strncmp(line + 6, name, length) != 0) return NULL;
+    return line + 6 + length;
+}
+
+scree_status grain_text_find_frame(grain_text *text, double wanted, scree_error *error)
+{
+    double first = NAN, last = NAN;
+    char *found = NULL;
+    int at = 0, number = text->line;
+    for (char *line = text->next; line; number++) {
+        char *end = strchr(line, '\n');
+        if (strncmp(line, "ITEM: TIMESTEP", 14) == 0 && end) {
+            last = strtod(end + 1, NULL);
+            if (isnan(first)) first = last;
+            if (isnan(wanted) || last == wanted) found = line, at = number;
+        }
+        line = end ? end + 1 : NULL;
+    }
+    if (isnan(last)) return grain_text_refuse(text, SIZE_MAX, error, "the dump has no frame");
+    if (!found)
+        return grain_text_refuse(text, SIZE_MAX, error,
+                                 "the dump has no frame of time step %.15g; its frames go from %.15g to %.15g", wanted,
+                                 first, last);
+    text->next = found;
+    text->line = at;
+    return SCREE_OK;
+}

@@ -128,9 +128,34 @@ static void write_bodies(FILE *file, const scree_snapshot *s, const extra *e)
     }
 }
 
-static scree_status write_frame(FILE *file, const char *directory, size_t which, scree_error *error)
+/// The contacts of a snapshot as a local dump; a second of -1 is a wall or a body of a membrane.
+static scree_status write_contacts(FILE *file, const char *directory, const scree_snapshot_mark *mark, size_t which,
+                                   scree_error *error)
+{
+    scree_average_sample s;
+    (void)which;
+    scree_status status = scree_sample_read(directory, mark->index, &s, error);
+    if (status) return status;
+    fprintf(file, "ITEM: TIMESTEP\n%lld\nITEM: TIME\n%.17g\nITEM: NUMBER OF ENTRIES\n%zu\n", (long long)mark->index,
+            s.time, s.contacts);
+    fputs("ITEM: BOX BOUNDS ff ff ff\n0 0\n0 0\n0 0\nITEM: ENTRIES first second fx fy fz x y z\n", file);
+    for (size_t k = 0; k < s.contacts; k++) {
+        const scree_average_contact *c = &s.contact[k];
+        fprintf(file, "%u %lld", s.grain[c->first].id + 1,
+                c->second == SCREE_AVERAGE_OUTSIDE ? -1 : (long long)s.grain[c->second].id + 1);
+        for (int i = 0; i < 3; i++) fprintf(file, " %.17g", c->force[i]);
+        for (int i = 0; i < 3; i++) fprintf(file, " %.17g", c->point[i]);
+        fputc('\n', file);
+    }
+    scree_average_sample_destroy(&s);
+    return SCREE_OK;
+}
+
+static scree_status write_frame(FILE *file, const char *directory, const scree_snapshot_mark *mark, size_t which,
+                                scree_error *error)
 {
     scree_snapshot s = {0};
+    (void)mark;
     extra e = {.keeper = {NULL}};
     box b;
     scree_status status = scree_snapshot_read(directory, which, &s, error);
@@ -161,8 +186,11 @@ static scree_status refuse_stage(const char *stage, const scree_snapshot_mark *m
     return status;
 }
 
-scree_status scree_export_lammps(const char *directory, const char *stage, const char *path, size_t *frames,
-                                 scree_error *error)
+typedef scree_status frame_writer(FILE *file, const char *directory, const scree_snapshot_mark *mark, size_t which,
+                                  scree_error *error);
+
+static scree_status write_frames(const char *directory, const char *stage, const char *path, frame_writer *write,
+                                 size_t *frames, scree_error *error)
 {
     scree_snapshot_mark *mark = NULL;
     size_t count = 0;
@@ -173,7 +201,7 @@ scree_status scree_export_lammps(const char *directory, const char *stage, const
     if (!status && *frames == 0) status = refuse_stage(stage, mark, count, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     for (size_t k = 0; k < count && !status; k++)
-        if (!stage || scree_snapshot_mark_is_of(&mark[k], stage)) status = write_frame(file, directory, k, error);
+        if (!stage || scree_snapshot_mark_is_of(&mark[k], stage)) status = write(file, directory, &mark[k], k, error);
     if (file) {
         scree_error later = {0};
         const scree_status closed = scree_replace_finish(path, file, !status, status ? &later : error);
@@ -181,4 +209,16 @@ scree_status scree_export_lammps(const char *directory, const char *stage, const
     }
     scree_release(&mark);
     return status;
+}
+
+scree_status scree_export_lammps(const char *directory, const char *stage, const char *path, size_t *frames,
+                                 scree_error *error)
+{
+    return write_frames(directory, stage, path, write_frame, frames, error);
+}
+
+scree_status scree_export_contacts(const char *directory, const char *stage, const char *path, size_t *frames,
+                                   scree_error *error)
+{
+    return write_frames(directory, stage, path, write_contacts, frames, error);
 }

@@ -177,7 +177,8 @@ static scree_status find_folder(const char *const *runs, size_t count, const mea
                                 size_t size, scree_error *error)
 {
     const char *given = plan->options->output;
-    if (!given && count == 1) return scree_path_join(folder, size, runs[0], "measure", error);
+    if (!given && count == 1 && !measure_is_file(runs[0]))
+        return scree_path_join(folder, size, runs[0], "measure", error);
     (void)snprintf(folder, size, "%s", given ? given : "measure");
     return SCREE_OK;
 }
@@ -197,6 +198,20 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
     return status;
 }
 
+/// Options that are of files of grains are of no use to runs.
+static scree_status check_kinds(const char *const *runs, size_t count, const scree_measure_options *options,
+                                scree_error *error)
+{
+    size_t files = 0;
+    for (size_t k = 0; k < count; k++) files += measure_is_file(runs[k]);
+    const char *wrong = files > 0 ? NULL : options->sample_case ? "case" : options->contacts ? "contacts" : NULL;
+    if (!wrong && (!options->contacts || files <= 1)) return SCREE_OK;
+    (void)scree_error_set(error, SCREE_ERROR_INPUT,
+                          wrong ? "it is of files of grains; a run has its own" : "contacts are those of one file");
+    if (error) (void)snprintf(error->field, sizeof error->field, "--%s", wrong ? wrong : "contacts");
+    return SCREE_ERROR_INPUT;
+}
+
 scree_status scree_measure_check(const scree_measure_options *options, scree_error *error)
 {
     measure_plan plan;
@@ -212,6 +227,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     measure_found found = {.runs = count, .dip_height = NAN};
     if (count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no run is named");
     scree_status status = measure_plan_read(options, &plan, error);
+    if (!status) status = check_kinds(runs, count, options, error);
     if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
     plan.network = !plan.mean && !options->no_figures ? folder : NULL;
     if (!status) status = scree_allocate(&each, count, sizeof *each, error);

@@ -56,8 +56,14 @@ typedef struct measure_fits {
 enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
 #define MEASURE_AT_REST 1e-2 /* what is not at rest has a larger unbalanced ratio */
 
+/// SI units of one unit of a file of grains.
+typedef struct measure_file_units {
+    double length, time, force; ///< m, s, N
+} measure_file_units;
+
 /// The options, read.
 typedef struct measure_plan {
+    measure_file_units units;
     scree_average_plan average;
     bool element_given, kernel;
     double share;            ///< of the grains of a run in an element, 0: the average says
@@ -91,7 +97,15 @@ typedef struct measure_found {
 /// Reads the options. Errors: SCREE_ERROR_INPUT with the option as field.
 scree_status measure_plan_read(const scree_measure_options *options, measure_plan *plan, scree_error *error);
 
-/// Measures one run. Errors: as scree_measure.
+/// Whether a path is that of a file, of grains then.
+bool measure_is_file(const char *path);
+
+/// The sample of a file of grains under the case of the options, with its contacts (library/measure_file.c). Errors: as
+/// scree_measure.
+scree_status measure_file_sample(const char *path, const measure_plan *plan, scree_average_sample *sample,
+                                 scree_error *error);
+
+/// Measures one run, or one file of grains. Errors: as scree_measure.
 scree_status measure_run(const char *directory, const measure_plan *plan, measure_tables *tables, scree_error *error);
 void measure_tables_destroy(measure_tables *tables);
 

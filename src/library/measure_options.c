@@ -162,6 +162,26 @@ static scree_status read_axis(const char *text, scree_average_plan *plan, scree_
     return refuse(error, "axis", "mass, apex, or a place, such as 0 mm", "'%s' is no place of the axis", text);
 }
 
+/// What one unit of a file is in SI units: "1 mm", or "mm".
+static scree_status read_unit(const char *text, const char *option, const char *si, double *unit, scree_error *error)
+{
+    char one[80];
+    scree_error why;
+    *unit = 1;
+    if (!text) return SCREE_OK;
+    (void)snprintf(one, sizeof one, "%s%.60s", *text && strchr("0123456789.", *text) ? "" : "1 ", text);
+    if (scree_units_parse(one, si, unit, &why)) return refuse(error, option, why.accepted, "%s", why.message);
+    if (!(*unit > 0)) return refuse(error, option, "a unit", "'%s' is not above 0", text);
+    return SCREE_OK;
+}
+
+static scree_status read_units(const scree_measure_options *options, measure_file_units *units, scree_error *error)
+{
+    scree_status status = read_unit(options->length_unit, "length-unit", "m", &units->length, error);
+    if (!status) status = read_unit(options->time_unit, "time-unit", "s", &units->time, error);
+    return status ? status : read_unit(options->force_unit, "force-unit", "N", &units->force, error);
+}
+
 scree_status measure_plan_read(const scree_measure_options *options, measure_plan *plan, scree_error *error)
 {
     static const char mean[] = "mean:";
@@ -191,6 +211,7 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
     plan->average.threads = options->threads;
     if (!status && options->kernel) status = read_kernel(options->kernel, plan, error);
     if (!status && options->fit) status = read_fits(options->fit, plan, error);
+    if (!status) status = read_units(options, &plan->units, error);
     if (!status) status = read_axis(options->axis ? options->axis : "mass", &plan->average, error);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "average/force_statistics.h"
 #include "average/increment.h"
 #include "average/profile.h"
+#include "base/matrix.h"
 #include "base/units.h"
 
 #include <math.h>
@@ -138,6 +139,14 @@ static void tell_triangle(const scree_average_view *view, scree_average_table *v
     scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
 }
 
+/// Of the whole sample [m2, m3]: a cell that repeats itself in all directions, else what lies within its surface.
+static double whole_volume(const scree_average_view *view)
+{
+    const scree_average_sample *sample = view->sample;
+    const bool whole = sample->directions == (1U << sample->dimension) - 1;
+    return whole ? fabs(scree_matrix_determinant(sample->lattice)) : view->surface.volume;
+}
+
 /// Mean coordination and the like, of the whole sample.
 static void tell_whole(const scree_average_view *view, scree_average_table *values)
 {
@@ -154,7 +163,7 @@ static void tell_whole(const scree_average_view *view, scree_average_table *valu
     scree_average_table_take(values, "grains", "1", (double)sample->counted);
     scree_average_table_take(values, "contacts", "1", (double)sample->contacts);
     scree_average_table_take(values, "coordination", "1", contacts / (double)sample->counted);
-    scree_average_table_take(values, "volume_fraction", "1", sample->solid / view->surface.volume);
+    scree_average_table_take(values, "volume_fraction", "1", sample->solid / whole_volume(view));
     scree_average_table_take(values, "fabric_factor", "1", weighted / solid / (contacts / (double)sample->counted));
     scree_average_table_take(values, "unbalanced_ratio", "1", sample->unbalanced_ratio);
     scree_average_table_take(values, "element_side", "m", view->frame.side);
@@ -275,36 +284,57 @@ static scree_status name_snapshot(scree_status status, scree_error *error)
     return status;
 }
 
-/// frame: where places are, found by the first one of several; NULL: there is one.
+/// A sample that is finished. before: the earlier state; frame: where places are, found by the first one of several;
+/// NULL: there is one.
+static scree_status measure_sample(const char *name, const measure_plan *plan, bool first, scree_average_frame *frame,
+                                   scree_average_sample *before, scree_average_sample *sample, measure_tables *tables,
+                                   scree_error *error)
+{
+    scree_average_view view;
+    scree_status status = SCREE_OK;
+    measure_plan own = *plan;
+    own.average.frame = first ? NULL : frame;
+    if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample->counted);
+    if (!own.element_given)
+        own.average.grains = sample->counted < SHARE * USUAL ? fmax(1, (double)(sample->counted / SHARE)) : USUAL;
+    // Kernels reach out of a periodic cell as far as they are wide, branches included.
+    if (own.kernel) status = scree_average_sample_repeat(sample, margin_of(&own, sample), error);
+    if (!status && own.kernel && before->own)
+        status = scree_average_sample_repeat(before, margin_of(&own, sample), error);
+    if (!status) status = scree_average_view_open(sample, &own.average, &view, error);
+    if (status) return status;
+    if (first && frame) *frame = view.frame;
+    if (first) warn(name, plan, before, &view);
+    status = measure_view(before, sample, &view, &own, tables, error);
+    scree_average_view_close(&view);
+    return status;
+}
+
 static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
                                      const scree_snapshot_mark *from, const measure_plan *plan, bool first,
                                      scree_average_frame *frame, measure_tables *tables, scree_error *error)
 {
     scree_average_sample sample, before = {0};
-    scree_average_view view;
-    measure_plan own = *plan;
-    own.average.frame = first ? NULL : frame;
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
     status = move(directory, from, plan, &before, &sample, error);
     if (!status) status = name_snapshot(scree_average_sample_finish(&sample, error), error);
-    if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample.counted);
-    if (!status && !own.element_given)
-        own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
-    // Kernels reach out of a periodic cell as far as they are wide, branches included.
-    if (!status && own.kernel) status = scree_average_sample_repeat(&sample, margin_of(&own, &sample), error);
-    if (!status && own.kernel && before.own)
-        status = scree_average_sample_repeat(&before, margin_of(&own, &sample), error);
-    if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
-    if (!status) {
-        if (first && frame) *frame = view.frame;
-        if (first) warn(directory, plan, &before, &view);
-        status = measure_view(&before, &sample, &view, &own, tables, error);
-        scree_average_view_close(&view);
-    }
+    if (!status) status = measure_sample(directory, plan, first, frame, &before, &sample, tables, error);
     scree_average_sample_destroy(&before);
     scree_average_sample_destroy(&sample);
     if (status && error && !error->file[0]) (void)snprintf(error->file, sizeof error->file, "%s", directory);
+    return status;
+}
+
+static scree_status measure_file(const char *path, const measure_plan *plan, measure_tables *tables, scree_error *error)
+{
+    scree_average_sample sample, before = {0};
+    scree_status status = measure_file_sample(path, plan, &sample, error);
+    if (status) return status;
+    status = scree_average_sample_finish(&sample, error);
+    if (!status) status = measure_sample(path, plan, true, NULL, &before, &sample, tables, error);
+    scree_average_sample_destroy(&sample);
+    if (status && error && !error->file[0]) (void)snprintf(error->file, sizeof error->file, "%s", path);
     return status;
 }
 
@@ -360,6 +390,7 @@ scree_status measure_run(const char *directory, const measure_plan *plan, measur
 {
     scree_snapshot_mark *mark;
     size_t count, which = 0, from = 0;
+    if (measure_is_file(directory)) return measure_file(directory, plan, tables, error);
     scree_status status = scree_snapshot_marks(directory, &mark, &count, error);
     if (status) return status;
     if (plan->mean) {

@@ -101,41 +101,35 @@ typedef struct judged {
 
 static void check_dimension(const judged *j)
 {
-    const double *z = j->g->column[SCREE_GRAIN_Z];
-    if (j->config->dimension == 3 && !z)
+    double lower, upper;
+    if (j->config->dimension == 3 && !j->g->column[SCREE_GRAIN_Z])
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
                           "the file has no column z: its grains lie in a plane, and dimension is 3");
-    if (j->config->dimension == 3 || !z) return;
-    double lower = z[0], upper = z[0];
-    for (size_t i = 0; i < j->g->count; i++) {
-        lower = fmin(lower, z[i]);
-        upper = fmax(upper, z[i]);
-    }
-    if (upper - lower > 1e-6 * j->g->column[SCREE_GRAIN_RADIUS][0])
+    else if (j->config->dimension == 2 && !scree_grains_are_plane(j->g, &lower, &upper))
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
                           "z of the grains goes from %.6g to %.6g m: they lie in space, and dimension is 2", lower,
                           upper);
 }
 
-/// Name of the material of the case that a kind of the file means: of the same name, or of the k-th where the name is
-/// the number k (YADE counts from 0); NULL: there is none.
-static const char *find_material(const judged *j, size_t kind)
+/// A box with right angles is needed.
+static void check_box(const judged *j)
 {
-    const char *wanted = j->g->kind_name[kind];
-    const int64_t count = j->config->material_count;
-    char *end;
-    if (j->g->kinds == 1 && count == 1) return j->config->materials[0].name; // it can only be that
-    for (int64_t k = 0; k < count; k++)
-        if (j->config->materials[k].name && strcmp(j->config->materials[k].name, wanted) == 0)
-            return j->config->materials[k].name;
-    const long number = strtol(wanted, &end, 10) + (strcmp(j->g->format, "yade") == 0);
-    return *end == 0 && number >= 1 && number <= count ? j->config->materials[number - 1].name : NULL;
+    const double *tilt = j->g->tilt;
+    if (tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0)
+        scree_rule_refuse(j->reader, "stages.0.file", NULL,
+                          "its box is tilted; a box with right angles is needed (scree measure takes tilted ones, too)");
 }
 
+/// The material of the case that each kind of the file means.
 static void find_materials(const judged *j, config *own)
 {
+    const char *names[SCREE_MAX_MATERIALS];
+    size_t count = 0;
+    for (; (int64_t)count < j->config->material_count && count < SCREE_MAX_MATERIALS; count++)
+        names[count] = j->config->materials[count].name;
     for (size_t kind = 0; kind < j->g->kinds; kind++) {
-        own->material[kind] = find_material(j, kind);
+        const int64_t found = scree_grains_find_material(j->g, kind, names, count);
+        own->material[kind] = found < 0 ? NULL : names[found];
         if (!own->material[kind])
             scree_rule_refuse(j->reader, "stages.0.file", NULL,
                               "there is no material '%s': `materials` must have those of the file, by name, or in the "
@@ -246,6 +240,7 @@ static void rules(scree_reader *reader, const scree_config *of)
     own->count = g.count;
     if (scree_given_rules(reader, of, g.count)) {
         check_dimension(&j);
+        check_box(&j);
         find_materials(&j, own);
         if (check_radii(&j)) {
             check_inside(&j);
