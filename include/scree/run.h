@@ -103,12 +103,15 @@ SCREE_API scree_status scree_export_lammps(const char *directory, const char *st
 /// on the first; point [m]. `scree_measure` reads it beside the dump of the grains.
 SCREE_API scree_status scree_export_contacts(const char *directory, const char *stage, const char *path, size_t *frames,
                                              scree_error *error);
-/// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL. Errors: SCREE_ERROR_IO,
-/// SCREE_ERROR_INPUT while a run goes on there.
+/// Draws the usual figures of a run, at most some ten, into `directory`/figures. `message` tells which; may be NULL.
+/// Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT while a run goes on there.
 SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                                   scree_error *error);
 
-/// The same for the figures in `names`, separated by commas; NULL: all. Errors beside those of scree_plot:
+#define SCREE_ALL_FIGURES "all"
+
+/// The same for the figures in `names`, separated by commas; SCREE_ALL_FIGURES: all that there are; NULL: the usual
+/// ones. Errors beside those of scree_plot:
 /// SCREE_ERROR_INPUT when the run has no figure of a name (`accepted` holds the nearest; nothing is drawn), or lacks
 /// what a figure that was asked for needs.
 SCREE_API scree_status scree_plot_only(const char *directory, const char *names,
@@ -148,11 +151,12 @@ SCREE_API scree_status scree_plot_movie(const char *directory, const scree_plot_
 /// Calls `visit` for every field of scenes: its name and what it is.
 SCREE_API void scree_plot_field_visit(void (*visit)(void *user, const char *name, const char *meaning), void *user);
 
-/// Calls `visit` for every figure that can be drawn of a run, in the order in which they are drawn. Errors as of
+/// Calls `visit` for every figure that can be drawn of a run, in the order in which they are drawn; usual: it is one of
+/// those that are drawn unless others are asked for. Errors as of
 /// scree_plot; figures of the files that can be read are told all the same.
 SCREE_API scree_status scree_figure_visit(const char *directory,
-                                          void (*visit)(void *user, const char *name, const char *meaning), void *user,
-                                          scree_error *error);
+                                          void (*visit)(void *user, const char *name, const char *meaning, bool usual),
+                                          void *user, scree_error *error);
 
 #ifdef __cplusplus
 }

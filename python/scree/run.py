@@ -194,7 +194,7 @@ class Run:
         return self
 
     def plot(self, *names: str) -> "list[Path]":
-        """Draws all figures, or those of these names, into figures/; returns their paths."""
+        """Draws the usual figures, all ("all"), or those of these names, into figures/; returns their paths."""
         paths: "list[Path]" = []
         tell = LINE(lambda user, path: paths.append(Path(text(path))))
         call(lib.scree_plot_only, encode(self.folder), ",".join(names).encode() if names else None, tell, None)

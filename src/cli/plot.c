@@ -1,4 +1,4 @@
-/// scree plot DIR [--list | --only NAME,... | --y COLUMN,... [--x COLUMN] [--stage STAGE,...] |
+/// scree plot DIR [--list | --all | --only NAME,... | --y COLUMN,... [--x COLUMN] [--stage STAGE,...] |
 ///                 --scene FIELD [--at WHEN] [--section] | --movie FIELD [--section]]
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -15,17 +15,18 @@ static void print_path(void *user, const char *path)
         printf("%s\n", path);
 }
 
-static void widen(void *user, const char *name, const char *meaning)
+static void widen(void *user, const char *name, const char *meaning, bool usual)
 {
     (void)meaning;
+    (void)usual;
     size_t *width = user, length = strlen(name);
     if (length > *width) *width = length;
 }
 
-static void print_figure(void *user, const char *name, const char *meaning)
+static void print_figure(void *user, const char *name, const char *meaning, bool usual)
 {
     const size_t *width = user;
-    printf("%-*s  %s\n", (int)*width, name, meaning);
+    printf("%-*s %c %s\n", (int)*width, name, usual ? '*' : ' ', meaning);
 }
 
 static scree_status print_list(const char *directory, scree_error *error)
@@ -81,6 +82,11 @@ static scree_status draw_named(const scree_command *command, scree_error *error)
     return scree_plot_only(command->argument[0], scree_command_value(command, "only"), print_path, NULL, error);
 }
 
+static scree_status draw_all(const scree_command *command, scree_error *error)
+{
+    return scree_plot_only(command->argument[0], SCREE_ALL_FIGURES, print_path, NULL, error);
+}
+
 static scree_status list_figures(const scree_command *command, scree_error *error)
 {
     return print_list(command->argument[0], error);
@@ -95,6 +101,7 @@ static const struct {
     {{"y", "x", "stage"}, draw_columns},
     {{"scene", "at", "section"}, draw_field},
     {{"movie", "section"}, draw_movie},
+    {{"all"}, draw_all},
     {{"only"}, draw_named},
 };
 

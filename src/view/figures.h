@@ -11,9 +11,18 @@
 
 struct scree_plot_run;
 
+/// Of which runs a figure is drawn that nobody has asked for by its name: few figures are read.
+typedef enum scree_figure_use {
+    SCREE_USUAL,           ///< of all that have it; of a figure of strain windows that of the last one
+    SCREE_ON_REQUEST,      ///< of none
+    SCREE_WITHOUT_LOADING, ///< of those without a loading stage
+    SCREE_OF_STAGES        ///< of those with several loading stages
+} scree_figure_use;
+
 typedef struct scree_figure {
     const char *name;    ///< stem of its files; of a figure of strain windows the beginning of it
     const char *meaning; ///< one line for `scree plot --list`
+    scree_figure_use use;
 } scree_figure;
 
 enum { SCREE_FIGURE_NAME = 64 };

@@ -20,8 +20,8 @@ typedef struct scree_page {
     int pixels; ///< long side of a PNG alone; 0: both files
 } scree_page;
 
-/// Draws a page twice: NAME.svg (text as glyphs, no fonts needed to look at it) and NAME.png, or the latter alone. A page that could not
-/// have the memory that its marks may take is not begun. Errors: disk, memory.
+/// Draws a page twice: NAME.svg (text as glyphs, no fonts needed to look at it) and NAME.png, or the latter alone. A
+/// page that could not have the memory that its marks may take is not begun. Errors: disk, memory.
 scree_status scree_page_write(const char *path, const scree_page *page, scree_error *error) SCREE_MUST_USE;
 
 typedef struct scree_text_style {

@@ -52,11 +52,32 @@ static void visit_figures(const scree_plot_run *run, figure_visitor *visit, void
 
 // ---- names that were asked for -----------------------------------------------------------------------------------
 
-/// Whether `name` stands in a list with commas. NULL is a list of everything.
-static bool is_asked(const char *names, const char *name)
+/// Whether a figure is one of those that are drawn unless others are asked for.
+static bool is_usual(const scree_plot_run *run, const scree_figure_job *job)
+{
+    if (job->window && job->window != &run->window[run->window_count - 1]) return false;
+    switch (job->figure->use) {
+    case SCREE_USUAL:
+        return true;
+    case SCREE_WITHOUT_LOADING:
+        return run->row_count == 0;
+    case SCREE_OF_STAGES:
+        return run->several_stages;
+    default:
+        return false;
+    }
+}
+
+/// `names` is the word for all figures.
+static bool are_all(const char *names)
+{
+    return names && strcmp(names, SCREE_ALL_FIGURES) == 0;
+}
+
+/// Whether `name` stands in a list with commas.
+static bool is_named(const char *names, const char *name)
 {
     size_t length = strlen(name);
-    if (!names) return true;
     for (const char *at = names; at; at = strchr(at, ',')) {
         at += *at == ',';
         if (strncmp(at, name, length) == 0 && (at[length] == 0 || at[length] == ',')) return true;
@@ -111,7 +132,7 @@ static scree_status refuse_unknown(const scree_plot_run *run, const name_list *l
 static scree_status check_names(const scree_plot_run *run, const char *names, scree_error *error)
 {
     name_list list = {0};
-    if (!names) return SCREE_OK;
+    if (!names || are_all(names)) return SCREE_OK;
     visit_figures(run, take_name, &list);
     size_t count = list.count;
     list.count = 0;
@@ -129,7 +150,8 @@ static scree_status check_names(const scree_plot_run *run, const char *names, sc
 // ---- drawing -----------------------------------------------------------------------------------------------------
 
 typedef struct drawing {
-    const char *names; ///< NULL: all figures
+    const char *names; ///< NULL: the usual figures, or all
+    bool all;
     void (*message)(void *user, const char *line);
     void *user;
     scree_status status; ///< of the first figure that failed; the others are drawn all the same
@@ -157,7 +179,7 @@ static void draw_figure(const scree_plot_run *run, const scree_figure_job *job, 
 {
     drawing *d = user;
     scree_error error = {0};
-    if (!is_asked(d->names, job->name)) return;
+    if (!d->all && !(d->names ? is_named(d->names, job->name) : is_usual(run, job))) return;
     scree_status status = job->family->applies(run, job, &error);
     if (!status) status = job->family->draw(run, job, &error);
     report(d, job->name, job->path, status, &error);
@@ -176,7 +198,8 @@ scree_status scree_plot_draw(const char *directory, const char *names, void (*me
                              void *user, scree_error *error)
 {
     scree_plot_run run;
-    drawing d = {.names = names, .message = message, .user = user};
+    const bool all = are_all(names);
+    drawing d = {.names = all ? NULL : names, .all = all, .message = message, .user = user};
     scree_status status = scree_plot_run_open(&run, directory, error);
     if (!status) status = check_names(&run, names, error);
     if (!status) status = scree_plot_make_folder(&run, error);
@@ -217,7 +240,7 @@ scree_status scree_plot(const char *directory, void (*message)(void *user, const
 // ---- listing -----------------------------------------------------------------------------------------------------
 
 typedef struct listing {
-    void (*visit)(void *user, const char *name, const char *meaning);
+    void (*visit)(void *user, const char *name, const char *meaning, bool usual);
     void *user;
 } listing;
 
@@ -225,10 +248,11 @@ static void list_figure(const scree_plot_run *run, const scree_figure_job *job, 
 {
     const listing *l = user;
     scree_error error = {0};
-    if (!job->family->applies(run, job, &error)) l->visit(l->user, job->name, job->figure->meaning);
+    if (!job->family->applies(run, job, &error)) l->visit(l->user, job->name, job->figure->meaning, is_usual(run, job));
 }
 
-scree_status scree_figure_visit(const char *directory, void (*visit)(void *user, const char *name, const char *meaning),
+scree_status scree_figure_visit(const char *directory,
+                                void (*visit)(void *user, const char *name, const char *meaning, bool usual),
                                 void *user, scree_error *error)
 {
     scree_folder_lock taken;

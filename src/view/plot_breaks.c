@@ -19,8 +19,8 @@ typedef struct break_row {
 } break_row;
 
 static const break_row rows[] = {
-    {{"broken-bonds", "bonds that have broken in tension and in shear"}, CHART},
-    {{"cracks", "particles at the end, coloured by the number of their bonds that have broken"}, SCENE},
+    {{"broken-bonds", "bonds that have broken in tension and in shear", SCREE_USUAL}, CHART},
+    {{"cracks", "particles at the end, coloured by the number of their bonds that have broken", SCREE_USUAL}, SCENE},
 };
 
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)

@@ -49,38 +49,38 @@ typedef struct map_row {
 } map_row;
 
 static const map_row map_rows[] = {
-    {{"distortion-rate-peak", "cells that distort fast, at the peak of the stress ratio"},
+    {{"distortion-rate-peak", "cells that distort fast, at the peak of the stress ratio", SCREE_ON_REQUEST},
      "Rate of distortion at the peak of the stress ratio",
      SCREE_AT_PEAK,
      .threshold = 2},
-    {{"distortion-rate-window", "cells that distort fast, in the middle of the first strain window"},
+    {{"distortion-rate-window", "cells that distort fast, in the middle of the first strain window", SCREE_ON_REQUEST},
      "Rate of distortion in the first strain window",
      SCREE_AT_WINDOW,
      .threshold = 2},
-    {{"distortion-rate-end", "cells that distort fast, at the end"},
+    {{"distortion-rate-end", "cells that distort fast, at the end", SCREE_ON_REQUEST},
      "Rate of distortion at the end",
      SCREE_AT_END,
      .threshold = 2},
-    {{"distortion-rate-colour-end", "cells at the end, coloured by their rate of distortion"},
+    {{"distortion-rate-colour-end", "cells at the end, coloured by their rate of distortion", SCREE_ON_REQUEST},
      "Rate of distortion at the end",
      SCREE_AT_END,
      .pressure = false},
-    {{"pressure-peak", "cells under high pressure, at the peak of the stress ratio"},
+    {{"pressure-peak", "cells under high pressure, at the peak of the stress ratio", SCREE_ON_REQUEST},
      "Pressure at the peak of the stress ratio",
      SCREE_AT_PEAK,
      .pressure = true,
      .threshold = 1.75},
-    {{"pressure-window", "cells under high pressure, in the middle of the first strain window"},
+    {{"pressure-window", "cells under high pressure, in the middle of the first strain window", SCREE_ON_REQUEST},
      "Pressure in the first strain window",
      SCREE_AT_WINDOW,
      .pressure = true,
      .threshold = 1.75},
-    {{"pressure-end", "cells under high pressure, at the end"},
+    {{"pressure-end", "cells under high pressure, at the end", SCREE_ON_REQUEST},
      "Pressure at the end",
      SCREE_AT_END,
      .pressure = true,
      .threshold = 1.75},
-    {{"pressure-colour-end", "cells at the end, coloured by their pressure"},
+    {{"pressure-colour-end", "cells at the end, coloured by their pressure", SCREE_USUAL},
      "Pressure at the end",
      SCREE_AT_END,
      .pressure = true},
@@ -207,7 +207,7 @@ static scree_status draw_distortion(const scree_plot_run *run, const scree_figur
 }
 
 static const scree_figure distortion_rows[] = {
-    {"distortion", "distortion of the cells in a strain window, with the shear band found in it"},
+    {"distortion", "distortion of the cells in a strain window, with the shear band found in it", SCREE_USUAL},
 };
 
 const scree_figure_family scree_figures_distortion = {
@@ -306,7 +306,8 @@ static scree_status plot_circles(const scree_plot_run *run, const scree_figure_j
 }
 
 static const scree_figure circle_rows[] = {
-    {"pressure-circles", "mean pressure over growing circles or spheres, in the middle of the first strain window"},
+    {"pressure-circles", "mean pressure over growing circles or spheres, in the middle of the first strain window",
+     SCREE_ON_REQUEST},
 };
 
 const scree_figure_family scree_figures_circles = {

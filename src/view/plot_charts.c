@@ -32,28 +32,28 @@ typedef struct chart_row {
 } chart_row;
 
 static const chart_row rows[] = {
-    {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction"},
+    {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction", SCREE_USUAL},
      "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, false, {
         {"volumetric_strain", "sum of increments", -100, BLUE, false},
         {"volumetric_strain_enclosed", "enclosed volume", -100, SKY, true},
         {"volumetric_strain_solid", "solid fraction", -100, VERMILLION, false}}},
-    {{"stress-ratio", "axial over lateral stress, applied and from contacts"},
+    {{"stress-ratio", "axial over lateral stress, applied and from contacts", SCREE_USUAL},
      "Stress ratio", "axial over lateral stress (1)", false, false, {
         {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
-    {{"shear-ratio", "shear stress over axial stress"},
+    {{"shear-ratio", "shear stress over axial stress", SCREE_USUAL},
      "Shear stress over normal stress", "shear over axial stress (1)", false, true, {
         {"shear_ratio", NULL, 1, BLUE, false}}},
-    {{"slip", "mean slip speed at contacts over the reference velocity"},
+    {{"slip", "mean slip speed at contacts over the reference velocity", SCREE_ON_REQUEST},
      "Slip at contacts", "mean slip speed / v_R (1)", false, false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
-    {{"stress", "axial and lateral stress, applied and from contacts"},
+    {{"stress", "axial and lateral stress, applied and from contacts", SCREE_ON_REQUEST},
      "Stress, applied (lateral: without friction of the plates) and from contacts", "stress (@Pa), compression positive", false, false, {
         {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
         {"stress_lateral_contacts", "lateral, contacts", 1, ORANGE, true}}},
-    {{"energy", "works, losses, stored energies and the residual of their balance"},
+    {{"energy", "works, losses, stored energies and the residual of their balance", SCREE_USUAL},
      "Energy ledger", "energy (@J)", false, false, {
         {"work_plates", "work of plates", 1, BLUE, false},
         {"work_pressure", "work of pressure", 1, SKY, false},
@@ -66,21 +66,21 @@ static const chart_row rows[] = {
         {"kinetic", "kinetic", 1, BLACK, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
-    {{"energy-stored", "stored energies and the residual of the balance"},
+    {{"energy-stored", "stored energies and the residual of the balance", SCREE_ON_REQUEST},
      "Stored energy and residual", "energy (@J)", false, false, {
         {"elastic_normal", "elastic, normal", 1, PINK, false},
         {"elastic_tangential", "elastic, tangential", 1, PINK, true},
         {"kinetic", "kinetic", 1, BLACK, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
-    {{"coordination", "contacts per particle, with and without rattlers"},
+    {{"coordination", "contacts per particle, with and without rattlers", SCREE_USUAL},
      "Coordination", "contacts per particle (1)", false, false, {
         {"coordination", "all particles", 1, BLUE, false},
         {"coordination_without_rattlers", "without rattlers", 1, VERMILLION, true}}},
-    {{"solid-fraction", "solid fraction"},
+    {{"solid-fraction", "solid fraction", SCREE_ON_REQUEST},
      "Solid fraction", "solid fraction (1)", false, false, {
         {"solid_fraction", NULL, 1, BLUE, false}}},
-    {{"unbalanced-force", "mean unbalanced over mean contact force"},
+    {{"unbalanced-force", "mean unbalanced over mean contact force", SCREE_ON_REQUEST},
      "Unbalanced force", "mean unbalanced over mean contact force (1)", true, false, {
         {"unbalanced_ratio", NULL, 1, BLUE, false}}},
 };

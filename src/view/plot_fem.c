@@ -27,7 +27,8 @@ typedef struct fem_row {
 } fem_row;
 
 static const fem_row rows[] = {
-    {.figure = {"fem-strain", "axial strain of the specimen and of a solid bar of finite elements over time"},
+    {.figure = {"fem-strain", "axial strain of the specimen and of a solid bar of finite elements over time",
+                SCREE_USUAL},
      .file = SCREE_FILE_FEM_STRAIN,
      .title = "Axial strain over time",
      .x_label = "time (ms)",
@@ -35,7 +36,7 @@ static const fem_row rows[] = {
      .x_factor = 1e3,
      .y_factor = 1e6,
      .line = {{"time", "run_strain", "specimen", false, false}, {"time", "strain", "finite elements", true, false}}},
-    {.figure = {"fem-force", "force over the approach of two discs: run, finite elements, Hertz"},
+    {.figure = {"fem-force", "force over the approach of two discs: run, finite elements, Hertz", SCREE_USUAL},
      .file = SCREE_FILE_FEM_FORCE,
      .title = "Force over the approach of two discs",
      .x_label = "approach of the centres (µm)",
@@ -45,7 +46,8 @@ static const fem_row rows[] = {
      .line = {{"theory_approach", "force", "Hertz, line contact", false, false},
               {"approach", "force", "finite elements", false, true},
               {"approach", "run_force", "deformable discs", true, false}}},
-    {.figure = {"fem-axis", "strain along the line of the centres of two discs: finite elements, Hertz, mean"},
+    {.figure = {"fem-axis", "strain along the line of the centres of two discs: finite elements, Hertz, mean",
+                SCREE_USUAL},
      .file = SCREE_FILE_FEM_AXIS,
      .title = "Strain along the line of the centres",
      .x_label = "distance from the contact (mm)",

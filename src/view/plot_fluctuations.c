@@ -94,7 +94,7 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_fig
 }
 
 static const scree_figure rows[] = {
-    {"fluctuations", "displacements in a strain window, relative to the affine field"},
+    {"fluctuations", "displacements in a strain window, relative to the affine field", SCREE_USUAL},
 };
 
 const scree_figure_family scree_figures_fluctuations = {

@@ -8,7 +8,7 @@
 #include <math.h>
 
 static const scree_figure rows[] = {
-    {"iterates", "change of the strains of deformable particles in each iterate of the forces"},
+    {"iterates", "change of the strains of deformable particles in each iterate of the forces", SCREE_USUAL},
 };
 
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)

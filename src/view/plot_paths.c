@@ -15,14 +15,14 @@ typedef struct path_row {
 } path_row;
 
 static const path_row rows[] = {
-    {{"path-p-q", "deviator stress q over mean stress p, of all loading stages"},
+    {{"path-p-q", "deviator stress q over mean stress p, of all loading stages", SCREE_USUAL},
      "Stress path",
      "p",
      "mean stress p (kPa)",
      "q",
      "deviator stress q, axial less lateral (kPa)",
      1e-3},
-    {{"path-strain", "deviator stress q over the axial strain, of all loading stages"},
+    {{"path-strain", "deviator stress q over the axial strain, of all loading stages", SCREE_OF_STAGES},
      "Deviator stress over all loading stages",
      "strain_axial",
      "axial strain since the first loading (%), compression positive",

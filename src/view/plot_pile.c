@@ -20,8 +20,8 @@ typedef struct pile_row {
 } pile_row;
 
 static const pile_row rows[] = {
-    {{"pile-outline", "outline of the pile, and its angles of repose"}, OUTLINE},
-    {{"pile-growth", "height and width of the pile over time"}, GROWTH},
+    {{"pile-outline", "outline of the pile, and its angles of repose", SCREE_USUAL}, OUTLINE},
+    {{"pile-growth", "height and width of the pile over time", SCREE_USUAL}, GROWTH},
 };
 
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)

@@ -22,11 +22,12 @@ typedef struct response_row {
 } response_row;
 
 static const response_row rows[] = {
-    {{"response-vertical", "vertical response to a load along cuts at four depths"}, CUTS},
-    {{"response-horizontal", "horizontal response along the same cuts"}, HORIZONTAL},
-    {{"response-strain", "vertical strain by the load along the same cuts"}, STRAIN},
-    {{"response-base", "vertical response at the base, beside a half-space and elastic layers"}, BASE},
-    {{"response-depths", "peak of the vertical response by depth, beside a half-space and elastic layers"}, DEPTHS},
+    {{"response-vertical", "vertical response to a load along cuts at four depths", SCREE_USUAL}, CUTS},
+    {{"response-horizontal", "horizontal response along the same cuts", SCREE_USUAL}, HORIZONTAL},
+    {{"response-strain", "vertical strain by the load along the same cuts", SCREE_USUAL}, STRAIN},
+    {{"response-base", "vertical response at the base, beside a half-space and elastic layers", SCREE_USUAL}, BASE},
+    {{"response-depths", "peak of the vertical response by depth, beside a half-space and elastic layers", SCREE_USUAL},
+     DEPTHS},
 };
 
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)

@@ -399,11 +399,14 @@ typedef struct rotation_row {
 } rotation_row;
 
 static const rotation_row rows[] = {
-    {{"rotation-decay", "spins over the distance from the forced particle, with the fit of their decay"},
+    {{"rotation-decay", "spins over the distance from the forced particle, with the fit of their decay", SCREE_USUAL},
      has_decay,
      draw_decay},
-    {{"rotation-rose", "radial strength of the contacts near the forced particle by direction"}, has_plane, draw_rose},
-    {{"rotation-map", "particles coloured by their spin over that of the forced one, with the contact forces"},
+    {{"rotation-rose", "radial strength of the contacts near the forced particle by direction", SCREE_USUAL},
+     has_plane,
+     draw_rose},
+    {{"rotation-map", "particles coloured by their spin over that of the forced one, with the contact forces",
+      SCREE_USUAL},
      has_last,
      draw_map},
 };

@@ -18,6 +18,8 @@ static scree_status read_series(scree_plot_run *run, scree_error *error)
     scree_loading_rows rows = scree_loading_rows_find(&run->series);
     run->first_row = rows.first;
     run->row_count = rows.last - rows.first;
+    const double *strain = scree_series_get(&run->series, "strain_yy"); // of loading stages alone
+    for (size_t k = 0; strain && k < run->first_row; k++) run->several_stages |= isfinite(strain[k]);
     return status;
 }
 

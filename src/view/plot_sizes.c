@@ -21,7 +21,8 @@ typedef struct sizes_row {
     scree_figure figure;
 } sizes_row;
 
-static const sizes_row rows[] = {{{"sizes", "share of the particles, by volume, that is finer: asked for and drawn"}}};
+static const sizes_row rows[] = {
+    {{"sizes", "share of the particles, by volume, that is finer: asked for and drawn", SCREE_ON_REQUEST}}};
 
 /// Diameters, mm, with what lies in each; then the share that is finer than each, %.
 typedef struct curve {

@@ -20,8 +20,8 @@ typedef struct wave_row {
 } wave_row;
 
 static const wave_row rows[] = {
-    [RECEIVERS] = {{"wave-receivers", "displacements at the receivers over time"}, SCREE_FILE_RECEIVERS},
-    [DISPERSION] = {{"dispersion", "frequency of the waves of the layers over their wavenumber"},
+    [RECEIVERS] = {{"wave-receivers", "displacements at the receivers over time", SCREE_USUAL}, SCREE_FILE_RECEIVERS},
+    [DISPERSION] = {{"dispersion", "frequency of the waves of the layers over their wavenumber", SCREE_USUAL},
                     SCREE_FILE_DISPERSION},
 };
 

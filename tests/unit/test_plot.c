@@ -173,7 +173,7 @@ static scree_status plot(const char *directory, report *r, scree_error *error)
 {
     *r = (report){0};
     *error = (scree_error){0};
-    return scree_plot(directory, take, r, error);
+    return scree_plot_only(directory, SCREE_ALL_FIGURES, take, r, error);
 }
 
 static void new_directory(const char *directory)
@@ -235,14 +235,15 @@ static void every_figure_of_a_run_is_drawn(void **state)
 }
 
 typedef struct listed {
-    size_t count;
+    size_t count, usual;
     char text[8192];
 } listed;
 
-static void take_listed(void *user, const char *name, const char *meaning)
+static void take_listed(void *user, const char *name, const char *meaning, bool usual)
 {
     listed *l = user;
     l->count++;
+    l->usual += usual;
     assert_true(strlen(meaning) > 10 && !strchr(meaning, '\n'));
     (void)snprintf(l->text + strlen(l->text), sizeof l->text - strlen(l->text), "%s.svg\n", name);
 }
@@ -262,6 +263,24 @@ static void the_list_names_what_is_drawn(void **state)
         assert_memory_equal(line + strlen("run/figures/"), name, length);
     }
     assert_true(!*line && !*name);
+}
+
+/// A reader wants ten: those with a mark in the list, of strain windows the last one.
+static void the_usual_figures_are_few(void **state)
+{
+    (void)state;
+    listed l = {0};
+    report r = {0};
+    scree_error error = {0};
+    if (scree_figure_visit("run", take_listed, &l, &error)) fail_msg("%s", error.message);
+    if (scree_plot("run", take, &r, &error)) fail_msg("%s", error.message);
+    assert_int_equal(r.drawn, l.usual);
+    assert_int_equal(r.left_out + r.failed, 0);
+    assert_true(r.drawn >= 8 && r.drawn <= 10);
+    assert_non_null(strstr(r.text, "stress-ratio.svg"));
+    assert_non_null(strstr(r.text, "distortion-11.2-15.svg"));
+    assert_null(strstr(r.text, "distortion-00-03.8.svg"));
+    assert_null(strstr(r.text, "speed-end.svg")); // it was loaded
 }
 
 static scree_status plot_only(const char *directory, const char *wanted, report *r, scree_error *error)
@@ -435,6 +454,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_figure_of_a_run_is_drawn),
+        cmocka_unit_test(the_usual_figures_are_few),
         cmocka_unit_test(the_list_names_what_is_drawn),
         cmocka_unit_test(figures_are_drawn_by_name),
         cmocka_unit_test(unknown_figures_are_refused),
