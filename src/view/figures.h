@@ -16,7 +16,7 @@ typedef enum scree_figure_use {
     SCREE_USUAL,           ///< of all that have it; of a figure of strain windows that of the last one
     SCREE_ON_REQUEST,      ///< of none
     SCREE_WITHOUT_LOADING, ///< of those without a loading stage
-    SCREE_OF_STAGES        ///< of those with several loading stages
+    SCREE_OF_PATHS         ///< of those with several loading stages, or whose loading turns back
 } scree_figure_use;
 
 typedef struct scree_figure {

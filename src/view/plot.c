@@ -61,8 +61,8 @@ static bool is_usual(const scree_plot_run *run, const scree_figure_job *job)
         return true;
     case SCREE_WITHOUT_LOADING:
         return run->row_count == 0;
-    case SCREE_OF_STAGES:
-        return run->several_stages;
+    case SCREE_OF_PATHS:
+        return run->winding;
     default:
         return false;
     }

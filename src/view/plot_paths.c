@@ -22,7 +22,7 @@ static const path_row rows[] = {
      "q",
      "deviator stress q, axial less lateral (kPa)",
      1e-3},
-    {{"path-strain", "deviator stress q over the axial strain, of all loading stages", SCREE_OF_STAGES},
+    {{"path-strain", "deviator stress q over the axial strain, of all loading stages", SCREE_OF_PATHS},
      "Deviator stress over all loading stages",
      "strain_axial",
      "axial strain since the first loading (%), compression positive",

@@ -9,6 +9,29 @@
 #include <stdio.h>
 #include <string.h>
 
+/// Rows of loading before those of the loading stage.
+static bool has_other_loading(const scree_plot_run *run)
+{
+    const double *strain = scree_series_get(&run->series, "strain_yy"); // of loading stages alone
+    for (size_t k = 0; strain && k < run->first_row; k++)
+        if (isfinite(strain[k])) return true;
+    return false;
+}
+
+/// The axial strain goes back by more than a part of its range.
+static bool turns_back(const scree_plot_run *run)
+{
+    const double *strain = scree_series_get(&run->series, "axial_strain"), part = 0.05;
+    double low = INFINITY, high = -INFINITY, back = 0, ahead = 0;
+    for (size_t k = run->first_row; strain && k < run->first_row + run->row_count; k++) {
+        low = fmin(low, strain[k]);
+        high = fmax(high, strain[k]);
+        back = fmax(back, high - strain[k]);
+        ahead = fmax(ahead, strain[k] - low);
+    }
+    return fmin(back, ahead) > part * (high - low);
+}
+
 static scree_status read_series(scree_plot_run *run, scree_error *error)
 {
     char path[PATH_MAX];
@@ -18,8 +41,7 @@ static scree_status read_series(scree_plot_run *run, scree_error *error)
     scree_loading_rows rows = scree_loading_rows_find(&run->series);
     run->first_row = rows.first;
     run->row_count = rows.last - rows.first;
-    const double *strain = scree_series_get(&run->series, "strain_yy"); // of loading stages alone
-    for (size_t k = 0; strain && k < run->first_row; k++) run->several_stages |= isfinite(strain[k]);
+    run->winding = has_other_loading(run) || turns_back(run);
     return status;
 }
 

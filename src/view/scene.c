@@ -12,6 +12,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#define RASTER_MARKS  100000 /* more of them are pixels: a vector file would have tens of megabytes */
+#define RASTER_BYTES  ((size_t)64 << 20)
 #define FRAME_PIXELS  1200 /* long side of a frame of a movie */
 #define MARGIN        9.0
 #define LEGEND_GAP    14.0
@@ -323,25 +325,58 @@ static void share_page(scree_scene_view *view, scree_scene_frame *frame)
     view->page_height = frame->height;
 }
 
+/// More marks than a vector file is good for are drawn once, as pixels; both files show these, with their text and
+/// legend as vectors.
+static void make_raster(scree_scene_view *view, double pixels)
+{
+    const double scale = pixels / fmax(view->page_width, view->page_height);
+    view->raster = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)lround(view->page_width * scale),
+                                              (int)lround(view->page_height * scale));
+    view->pixel = 1 / scale;
+    cairo_t *cairo = cairo_create(view->raster);
+    cairo_scale(cairo, scale, scale);
+    cairo_set_source_rgb(cairo, 1, 1, 1);
+    cairo_paint(cairo);
+    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_FAST);
+    scree_scene_marks(view, cairo);
+    cairo_destroy(cairo);
+}
+
+static void show_raster(const scree_scene_view *view, cairo_t *cairo)
+{
+    cairo_save(cairo);
+    cairo_scale(cairo, view->pixel, view->pixel);
+    cairo_set_source_surface(cairo, view->raster, 0, 0);
+    cairo_paint(cairo);
+    cairo_restore(cairo);
+}
+
 static void draw_page(cairo_t *cairo, void *user)
 {
     const scree_scene_view *view = user;
     cairo_set_source_rgb(cairo, 1, 1, 1);
     cairo_paint(cairo);
+    if (view->raster) show_raster(view, cairo);
     draw_heading(view, cairo);
-    scree_scene_marks(view, cairo);
+    if (!view->raster) scree_scene_marks(view, cairo);
     scree_scene_scale_bar(view, cairo, view->left, view->top + view->height + 15);
     double legend = fmax(view->left + view->width + LEGEND_GAP, view->page_width - MARGIN - SCREE_SCENE_LEGEND_WIDTH);
     scree_scene_legend(view, cairo, legend, view->top);
 }
 
-/// No shape has more discs or lines: discs of one colour, contacts of one width, the net, cells, the lines of walls.
+/// Marks that are drawn some thousand at a time: discs of one colour, contacts of one width, cells.
+static size_t many_marks(const scree_scene_view *view)
+{
+    const scree_snapshot *s = view->snapshot;
+    return s->count + s->contact_count + (view->scene->cells ? view->scene->cells->count : 0);
+}
+
+/// No shape has more discs or lines: some of these, the net, the lines of walls.
 static size_t largest_shape(const scree_scene_view *view)
 {
     const scree_snapshot *s = view->snapshot;
-    size_t cells = view->scene->cells ? view->scene->cells->count : 0;
-    size_t lines = s->wall_line_count + s->wall_triangle_count;
-    return s->count + s->contact_count + s->triangle_count + cells + lines;
+    const size_t many = many_marks(view), lines = s->wall_line_count + s->wall_triangle_count;
+    return (many < SCREE_SCENE_PATH ? many : SCREE_SCENE_PATH) + s->triangle_count + lines;
 }
 
 scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, const scree_scene *scene,
@@ -358,9 +393,13 @@ scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, 
         write_caption(&view);
         lay_out(&view);
         if (scene->frame) share_page(&view, scene->frame);
-        const scree_page page = {
-            view.page_width, view.page_height, largest_shape(&view), draw_page, &view, scene->frame ? FRAME_PIXELS : 0};
-        status = scree_page_write(path, &page, error);
+        const bool raster = many_marks(&view) > RASTER_MARKS;
+        const int pixels = scene->frame ? FRAME_PIXELS : 0;
+        status = scree_memory_check(raster ? RASTER_BYTES : 1, error);
+        if (!status && raster) make_raster(&view, pixels > 0 ? pixels : SCREE_PAGE_PIXELS);
+        const scree_page page = {view.page_width, view.page_height, largest_shape(&view), draw_page, &view, pixels};
+        if (!status) status = scree_page_write(path, &page, error);
+        if (view.raster) cairo_surface_destroy(view.raster);
     }
     scree_release(&view.order);
     return status;

@@ -48,10 +48,14 @@ static int level_of(const scree_scene_view *view, size_t cell)
 static void draw_coloured(const scree_scene_view *view, cairo_t *cairo)
 {
     for (int level = 0; level <= SCREE_SCENE_LEVELS; level++) {
-        for (size_t k = 0; k < view->scene->cells->count; k++)
-            if (level_of(view, k) == level) add_cell(view, cairo, k);
         double position = level == SCREE_SCENE_LEVELS ? NAN : (double)level / (SCREE_SCENE_LEVELS - 1);
-        fill(cairo, scree_colour_at(view->scene->map, position));
+        const scree_colour colour = scree_colour_at(view->scene->map, position);
+        for (size_t k = 0, added = 0; k < view->scene->cells->count; k++) {
+            if (level_of(view, k) != level) continue;
+            add_cell(view, cairo, k);
+            if (++added % SCREE_SCENE_PATH == 0) fill(cairo, colour);
+        }
+        fill(cairo, colour);
     }
 }
 
@@ -59,8 +63,11 @@ static void draw_shaded(const scree_scene_view *view, cairo_t *cairo)
 {
     const scree_scene *scene = view->scene;
     double limit = scene->cell_threshold * scree_cells_mean(scene->cells, scene->cell_field);
-    for (size_t k = 0; k < scene->cells->count; k++)
-        if (scene->cell_field[k] > limit) add_cell(view, cairo, k);
+    for (size_t k = 0, added = 0; k < scene->cells->count; k++) {
+        if (!(scene->cell_field[k] > limit)) continue;
+        add_cell(view, cairo, k);
+        if (++added % SCREE_SCENE_PATH == 0) fill(cairo, shade);
+    }
     fill(cairo, shade);
 }
 

@@ -9,6 +9,7 @@
 
 /// Points of a rounded corner.
 enum { ARC = 9 };
+#define LEAST_OUTLINED 6 /* pixels across */
 
 /// Adds the corners of a polygon as it lies, those that are rounded as arcs about the corners of the core.
 static void add_polygon(const scree_scene_view *view, cairo_t *cairo, size_t k)
@@ -43,9 +44,22 @@ static void add_outline(const scree_scene_view *view, cairo_t *cairo, size_t k)
     cairo_close_path(cairo);
 }
 
-static void draw_disc_paths(const scree_scene_view *view, cairo_t *cairo, size_t from, size_t to)
+/// Discs of one colour. Of those that are some pixels wide the lines around them would be all that is seen.
+static void draw_disc_paths(const scree_scene_view *view, cairo_t *cairo, size_t from, size_t to, scree_colour colour,
+                            scree_colour line)
 {
-    for (size_t k = from; k < to; k++) add_outline(view, cairo, view->order[k]);
+    const bool outlined = 2 * view->mean_radius * view->scale > LEAST_OUTLINED * view->pixel;
+    for (size_t begin = from; begin < to; begin += SCREE_SCENE_PATH) {
+        for (size_t k = begin; k < to && k < begin + SCREE_SCENE_PATH; k++) add_outline(view, cairo, view->order[k]);
+        scree_page_colour(cairo, colour);
+        if (outlined) {
+            cairo_fill_preserve(cairo);
+            scree_page_colour(cairo, line);
+            cairo_stroke(cairo);
+        } else {
+            cairo_fill(cairo);
+        }
+    }
 }
 
 /// A lighter colour; weight 0: the same, 1: white.
@@ -137,13 +151,10 @@ static void draw_discs(const scree_scene_view *view, cairo_t *cairo)
     for (int level = 0; level <= SCREE_SCENE_LEVELS; level++) {
         size_t from = view->start[level], to = view->start[level + 1];
         if (from == to) continue;
-        draw_disc_paths(view, cairo, from, to);
         double position = level == SCREE_SCENE_LEVELS ? NAN : (double)level / (SCREE_SCENE_LEVELS - 1);
         scree_colour plain = behind ? (scree_colour){0.955, 0.95, 0.935} : (scree_colour){0.83, 0.86, 0.90};
-        scree_page_colour(cairo, scene->field ? scree_colour_at(scene->map, position) : plain);
-        cairo_fill_preserve(cairo);
-        scree_page_colour(cairo, behind && !scene->field ? (scree_colour){0.80, 0.79, 0.76} : scree_scene_ink);
-        cairo_stroke(cairo);
+        draw_disc_paths(view, cairo, from, to, scene->field ? scree_colour_at(scene->map, position) : plain,
+                        behind && !scene->field ? (scree_colour){0.80, 0.79, 0.76} : scree_scene_ink);
     }
 }
 
@@ -195,14 +206,15 @@ static void draw_level(const scree_scene_view *view, cairo_t *cairo, int level, 
 {
     const scree_snapshot *s = view->snapshot;
     double ratio = (level + 0.5) / (SCREE_SCENE_LEVELS - 1) * SCREE_SCENE_FORCE_LIMIT, x, y;
-    for (size_t k = 0; k < s->contact_count; k++) {
+    cairo_set_line_width(cairo, scree_scene_force_width(view, ratio));
+    scree_page_colour(cairo, pull ? scree_scene_pull : ratio < 1 ? scree_scene_weak : scree_scene_strong);
+    for (size_t k = 0, lines = 0; k < s->contact_count; k++) {
         const double force = s->normal_force[k];
         if ((force < 0) != pull || width_level(view, force) != level || !contact_end(s, k, &x, &y)) continue;
         cairo_move_to(cairo, scree_scene_x(view, s->x[s->first[k]]), scree_scene_y(view, s->y[s->first[k]]));
         cairo_line_to(cairo, scree_scene_x(view, x), scree_scene_y(view, y));
+        if (++lines % SCREE_SCENE_PATH == 0) cairo_stroke(cairo);
     }
-    cairo_set_line_width(cairo, scree_scene_force_width(view, ratio));
-    scree_page_colour(cairo, pull ? scree_scene_pull : ratio < 1 ? scree_scene_weak : scree_scene_strong);
     cairo_stroke(cairo);
 }
 

@@ -33,6 +33,8 @@ typedef struct scree_scene_view {
     double scale;                    ///< pt per m
     double left, top, width, height; ///< of the sample and its overhang
     double page_width, page_height;
+    cairo_surface_t *raster; ///< the page's marks as pixels, which both files show; NULL: they are drawn
+    double pixel;            ///< pt, of the raster that is drawn on; 0: on none
     char title[512], caption[256], field_name[160];
 } scree_scene_view;
 
@@ -49,6 +51,9 @@ static inline double scree_scene_y(const scree_scene_view *view, double y)
 {
     return view->top + (view->high[1] + view->overhang_high[1] - y) * view->scale;
 }
+/// After so many marks a path is drawn: Cairo holds the edges of a path, some kB a disc.
+enum { SCREE_SCENE_PATH = 4096 };
+
 /// Colour of disc `k` by its field.
 scree_colour scree_scene_disc_colour(const scree_scene_view *view, size_t k);
 
