@@ -3,6 +3,7 @@
 
 #include "hand_made_snapshot.h"
 
+#include "base/file_bytes.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "search/tetrahedra.h"
@@ -240,6 +241,33 @@ static void large_scene_is_a_small_file(void **state)
     assert_draws("large", &s, &(scree_scene){.title = "Large", .field = s.angle, .boundary = true, .plates = true});
     assert_int_equal(stat("large.svg", &information), 0);
     assert_true(information.st_size < 1500000);
+    hand_made_destroy(&s);
+}
+
+/// Discs and contacts of 40,000 discs are an image within the vector page, whose text stays vectors; a place has the
+/// colour of its disc.
+static void very_many_marks_are_pixels(void **state)
+{
+    (void)state;
+    scree_snapshot s;
+    struct stat information;
+    scree_error error = {0};
+    char *svg;
+    size_t length;
+    hand_made_packing(&s, 200, 200, 0.1);
+    for (size_t k = 0; k < s.count; k++) s.angle[k] = s.x[k];
+    assert_draws("pixels", &s, &(scree_scene){.title = "Very large", .field = s.angle, .field_name = "x"});
+    assert_int_equal(stat("pixels.svg", &information), 0);
+    assert_true(information.st_size < 4000000);
+    assert_int_equal(scree_file_load("pixels.svg", &svg, &length, &error), SCREE_OK);
+    assert_non_null(strstr(svg, "<image"));
+    assert_non_null(strstr(svg, "<use")); // glyphs
+    scree_release(&svg);
+    picture p = picture_read("pixels.png");
+    int width, height;
+    picture_extent(&p, scree_colour_at(SCREE_COLOUR_SEQUENTIAL, 0.5), 0.7, &width, &height);
+    assert_true(width > 0 && width < 100 && height > 500); // a narrow stripe, as high as the sample
+    cairo_surface_destroy(p.surface);
     hand_made_destroy(&s);
 }
 
@@ -540,6 +568,7 @@ int main(void)
         cmocka_unit_test(discs_are_round_and_have_their_colour),
         cmocka_unit_test(extreme_snapshots_are_drawn),
         cmocka_unit_test(damaged_snapshots_are_drawn),
+        cmocka_unit_test(very_many_marks_are_pixels),
         cmocka_unit_test(scene_that_cannot_be_drawn_says_so),
         cmocka_unit_test(scene_survives_lack_of_memory),
         cmocka_unit_test(chart_is_written_and_drawn_again_by_its_script),
