@@ -88,6 +88,28 @@ static bool enter_element(scree_target *target, const char **path)
     return true;
 }
 
+/// Steps into the component that the path ends with, of a key whose value is {component: value}. False: a reason is
+/// set.
+static bool enter_component(scree_target *target, const char *path, scree_reader *creator, scree_place place)
+{
+    const scree_key *key = target->key;
+    const part p = next_part(&path);
+    const scree_choice *choice = key->choices;
+    while (choice->name && (strlen(choice->name) != p.length || strncmp(choice->name, p.text, p.length) != 0)) choice++;
+    if (!choice->name || *path) {
+        (void)snprintf(target->reason, sizeof target->reason, "%s has no component '%.*s'", key->name,
+                       (int)(p.length < 60 ? p.length : 60), p.text);
+        return false;
+    }
+    const bool empty = !target->node || (target->node->kind == SCREE_NODE_SCALAR && !target->node->text[0]);
+    if (empty && creator && target->parent) target->node = create_section(creator, target->parent, key, place);
+    const bool mapping = target->node && target->node->kind == SCREE_NODE_MAPPING;
+    target->parent = mapping ? target->node : NULL;
+    target->node = mapping ? scree_node_find(target->parent, choice->name) : NULL;
+    target->component = choice->name;
+    return true;
+}
+
 bool scree_path_follow(scree_node *root, const char *path, scree_reader *creator, scree_place place,
                        scree_target *target)
 {
@@ -109,6 +131,7 @@ bool scree_path_follow(scree_node *root, const char *path, scree_reader *creator
             if (!*path) return true;
             continue;
         }
+        if (key->type == SCREE_KEY_TENSOR) return enter_component(target, path, creator, place);
         if (key->type != SCREE_KEY_SECTION) {
             (void)snprintf(target->reason, sizeof target->reason, "'%s' is a value without keys of its own", key->name);
             return false;
@@ -203,7 +226,7 @@ void scree_path_set(scree_reader *reader, const char *path, const scree_node *va
         return;
     }
     *node = *value;
-    node->key = target.key->name;
+    node->key = target.component ? target.component : target.key->name;
     node->key_place = place;
     node->place.origin = place.origin;
     if (target.node)

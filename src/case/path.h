@@ -1,5 +1,5 @@
-/// Key paths: "particles.count", "stages.2.rate", "stages.compress.rate", "materials.quartz.friction". Elements of
-/// lists are called by index from 0 or by name. Private to src/case/.
+/// Key paths: "particles.count", "stages.2.rate", "stages.compress.rate", "materials.quartz.friction",
+/// "stages.deform.velocity_gradient.xy". Elements of lists are called by index from 0 or by name. Private to src/case/.
 #ifndef SCREE_CASE_PATH_H
 #define SCREE_CASE_PATH_H
 
@@ -9,10 +9,11 @@
 typedef struct scree_target {
     const scree_section *section; ///< that the key belongs to
     const scree_key *key;
-    scree_node *parent; ///< mapping that holds the key, or would hold it; NULL if the case has no such section
-    scree_node *node;   ///< value, or the element when the path ends with one
-    bool element;       ///< the path ends with an element of a list
-    char reason[256];   ///< why the path leads nowhere
+    scree_node *parent;    ///< mapping that holds the key, or would hold it; NULL if the case has no such section
+    scree_node *node;      ///< value, or the element when the path ends with one
+    bool element;          ///< the path ends with an element of a list
+    const char *component; ///< of a key with components, the one that the path ends with; NULL: the key as a whole
+    char reason[256];      ///< why the path leads nowhere
 } scree_target;
 
 /// Follows `path` through the schema and the tree. With a reader, sections on the way that the case does not have are

@@ -69,7 +69,7 @@ static scree_status check_key(const scree_case *c, const scree_bisection *what, 
     scree_target target;
     if (!scree_path_follow(scree_case_root(c), what->key, NULL, (scree_place){.source = NULL}, &target))
         return refuse(error, "key", NULL, "%s", target.reason);
-    if (target.element || target.key->type != SCREE_KEY_NUMBER)
+    if (target.element || (!target.component && target.key->type != SCREE_KEY_NUMBER))
         return refuse(error, "key", NULL, "'%s' is no number: only between numbers there is a middle", what->key);
     for (int k = 0; k < 2; k++) {
         scree_error problem = {0};

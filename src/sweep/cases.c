@@ -158,7 +158,8 @@ static void add_parameter(scree_reader *reader, scree_sweep *sweep, size_t dimen
         bool found =
             scree_path_follow(scree_case_root(c), parameter->name, NULL, d->setting[i].assignment[k].place, &target);
         bool numeric =
-            found && !target.element && (target.key->type == SCREE_KEY_NUMBER || target.key->type == SCREE_KEY_INTEGER);
+            found && !target.element &&
+            (target.component || target.key->type == SCREE_KEY_NUMBER || target.key->type == SCREE_KEY_INTEGER);
         const char *unit = numeric && target.key->unit ? target.key->unit : "1";
         if (numeric && scree_units_parse(text[i], unit, &number[i], NULL)) number[i] = NAN;
         if (numeric) parameter->unit = unit;

@@ -6,6 +6,7 @@
 // clang-format off
 #define SCREE_FIGURE_FAMILIES(row) \
     row(charts)       /* columns over the strain of loading */ \
+    row(times)        /* columns over time, of runs without loading */ \
     row(paths)        /* stress paths over all loading stages */ \
     row(sizes)        /* of the particles */ \
     row(scenes)       /* single snapshots */ \

@@ -142,7 +142,8 @@ static size_t gather_curves(const scree_plot_run *run, const chart_row *row, dou
 
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
 {
-    return !run->series_status && (run->of_cell || !((const chart_row *)figure)->of_cell);
+    if (run->series_status || (!run->of_cell && ((const chart_row *)figure)->of_cell)) return false;
+    return run->row_count > 0 || run->series.row_count < 2; // others have charts over time (plot_times.c)
 }
 
 static scree_status has_columns(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)

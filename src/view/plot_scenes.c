@@ -71,7 +71,7 @@ static const scene_row rows[] = {
      SCREE_AT_END,
      .field = FIELD_DISPLACEMENT,
      .view = VIEW_SPACE},
-    {{"section-end", "section at the end, coloured by displacements since the start of loading", SCREE_ON_REQUEST},
+    {{"section-end", "section at the end, coloured by displacements since the start of loading", SCREE_WITHOUT_LOADING},
      "Section at the end: displacements",
      SCREE_AT_END,
      .field = FIELD_DISPLACEMENT,

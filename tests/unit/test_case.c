@@ -1,6 +1,7 @@
 /// Reading cases: what is accepted, every kind of mistake with its message and place, --set, quick, lost memory.
 #include "base/memory.h"
 #include "case/case.h"
+#include "case/path.h"
 #include "good_case.h"
 #include "law_choice.h"
 #include "own_config.h"
@@ -259,6 +260,24 @@ static void overrides_change_the_case(void **state)
     assert_string_equal(c->config.title, "A test: of --set = \"quoted\" # text");
     assert_int_equal(c->config.particles.count, 100000);
     scree_case_free(c);
+    // A component of a tensor has a path, whether the case gives the tensor or not.
+    static const char sheared[] = "materials: [{name: a, young_modulus: 1 GPa, density: 1000, friction: 0}]\n"
+                                  "particles: {material: a, count: 3, radius_min: 1, radius_max: 2}\n"
+                                  "boundary: {periodic: xy}\nstages:\n- {stage: prepare, method: gas}\n"
+                                  "- {stage: deform, velocity_gradient: {xy: 1 1/s}, strain: 5 %}\n";
+    for (int given = 0; given < 2; given++) {
+        c = right(sheared,
+                  given ? SET("stages.deform.velocity_gradient.xy=3 1/s", "stages.1.stress.yy=5 kPa")
+                        : SET("stages.deform.stress.yy=5 kPa", "stages.deform.velocity_gradient.xy=3 1/s"),
+                  false);
+        scree_target target;
+        assert_true(
+            scree_path_follow(scree_case_root(c), "stages.1.velocity_gradient.xy", NULL, (scree_place){0}, &target));
+        assert_string_equal(target.node->text, "3 1/s");
+        assert_true(scree_path_follow(scree_case_root(c), "stages.1.stress.yy", NULL, (scree_place){0}, &target));
+        assert_string_equal(target.node->text, "5 kPa");
+        scree_case_free(c);
+    }
     // --set overrules quick.
     c = right(text, SET("particles.count=77"), true);
     assert_int_equal(c->config.particles.count, 77);
