@@ -15,6 +15,7 @@ struct scree_plot_run;
 typedef enum scree_figure_use {
     SCREE_USUAL,           ///< of all that have it; of a figure of strain windows that of the last one
     SCREE_ON_REQUEST,      ///< of none
+    SCREE_WITH_LOADING,    ///< of those with a loading stage
     SCREE_WITHOUT_LOADING, ///< of those without a loading stage
     SCREE_OF_PATHS         ///< of those with several loading stages, or whose loading turns back
 } scree_figure_use;

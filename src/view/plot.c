@@ -59,6 +59,8 @@ static bool is_usual(const scree_plot_run *run, const scree_figure_job *job)
     switch (job->figure->use) {
     case SCREE_USUAL:
         return true;
+    case SCREE_WITH_LOADING:
+        return run->row_count > 0 || run->series.row_count < 2; // the latter says why
     case SCREE_WITHOUT_LOADING:
         return run->row_count == 0;
     case SCREE_OF_PATHS:

@@ -80,7 +80,7 @@ static const map_row map_rows[] = {
      SCREE_AT_END,
      .pressure = true,
      .threshold = 1.75},
-    {{"pressure-colour-end", "cells at the end, coloured by their pressure", SCREE_USUAL},
+    {{"pressure-colour-end", "cells at the end, coloured by their pressure", SCREE_WITH_LOADING},
      "Pressure at the end",
      SCREE_AT_END,
      .pressure = true},

@@ -32,16 +32,16 @@ typedef struct chart_row {
 } chart_row;
 
 static const chart_row rows[] = {
-    {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction", SCREE_USUAL},
+    {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction", SCREE_WITH_LOADING},
      "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, false, {
         {"volumetric_strain", "sum of increments", -100, BLUE, false},
         {"volumetric_strain_enclosed", "enclosed volume", -100, SKY, true},
         {"volumetric_strain_solid", "solid fraction", -100, VERMILLION, false}}},
-    {{"stress-ratio", "axial over lateral stress, applied and from contacts", SCREE_USUAL},
+    {{"stress-ratio", "axial over lateral stress, applied and from contacts", SCREE_WITH_LOADING},
      "Stress ratio", "axial over lateral stress (1)", false, false, {
         {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
-    {{"shear-ratio", "shear stress over axial stress", SCREE_USUAL},
+    {{"shear-ratio", "shear stress over axial stress", SCREE_WITH_LOADING},
      "Shear stress over normal stress", "shear over axial stress (1)", false, true, {
         {"shear_ratio", NULL, 1, BLUE, false}}},
     {{"slip", "mean slip speed at contacts over the reference velocity", SCREE_ON_REQUEST},
@@ -53,7 +53,7 @@ static const chart_row rows[] = {
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
         {"stress_lateral_contacts", "lateral, contacts", 1, ORANGE, true}}},
-    {{"energy", "works, losses, stored energies and the residual of their balance", SCREE_USUAL},
+    {{"energy", "works, losses, stored energies and the residual of their balance", SCREE_WITH_LOADING},
      "Energy ledger", "energy (@J)", false, false, {
         {"work_plates", "work of plates", 1, BLUE, false},
         {"work_pressure", "work of pressure", 1, SKY, false},
@@ -73,7 +73,7 @@ static const chart_row rows[] = {
         {"kinetic", "kinetic", 1, BLACK, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
-    {{"coordination", "contacts per particle, with and without rattlers", SCREE_USUAL},
+    {{"coordination", "contacts per particle, with and without rattlers", SCREE_WITH_LOADING},
      "Coordination", "contacts per particle (1)", false, false, {
         {"coordination", "all particles", 1, BLUE, false},
         {"coordination_without_rattlers", "without rattlers", 1, VERMILLION, true}}},
@@ -142,8 +142,7 @@ static size_t gather_curves(const scree_plot_run *run, const chart_row *row, dou
 
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
 {
-    if (run->series_status || (!run->of_cell && ((const chart_row *)figure)->of_cell)) return false;
-    return run->row_count > 0 || run->series.row_count < 2; // others have charts over time (plot_times.c)
+    return !run->series_status && (run->of_cell || !((const chart_row *)figure)->of_cell);
 }
 
 static scree_status has_columns(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)

@@ -264,17 +264,18 @@ static void overrides_change_the_case(void **state)
     static const char sheared[] = "materials: [{name: a, young_modulus: 1 GPa, density: 1000, friction: 0}]\n"
                                   "particles: {material: a, count: 3, radius_min: 1, radius_max: 2}\n"
                                   "boundary: {periodic: xy}\nstages:\n- {stage: prepare, method: gas}\n"
+                                  "- {stage: confine, pressure: 1 kPa}\n"
                                   "- {stage: deform, velocity_gradient: {xy: 1 1/s}, strain: 5 %}\n";
     for (int given = 0; given < 2; given++) {
         c = right(sheared,
-                  given ? SET("stages.deform.velocity_gradient.xy=3 1/s", "stages.1.stress.yy=5 kPa")
+                  given ? SET("stages.deform.velocity_gradient.xy=3 1/s", "stages.2.stress.yy=5 kPa")
                         : SET("stages.deform.stress.yy=5 kPa", "stages.deform.velocity_gradient.xy=3 1/s"),
                   false);
         scree_target target;
         assert_true(
-            scree_path_follow(scree_case_root(c), "stages.1.velocity_gradient.xy", NULL, (scree_place){0}, &target));
+            scree_path_follow(scree_case_root(c), "stages.2.velocity_gradient.xy", NULL, (scree_place){0}, &target));
         assert_string_equal(target.node->text, "3 1/s");
-        assert_true(scree_path_follow(scree_case_root(c), "stages.1.stress.yy", NULL, (scree_place){0}, &target));
+        assert_true(scree_path_follow(scree_case_root(c), "stages.2.stress.yy", NULL, (scree_place){0}, &target));
         assert_string_equal(target.node->text, "5 kPa");
         scree_case_free(c);
     }

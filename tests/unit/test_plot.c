@@ -393,7 +393,11 @@ static void run_without_loading_has_its_packing_drawn(void **state)
     if (status) fail_msg("%s\n%s", error.message, r.text);
     assert_int_equal(r.left_out, 13);
     assert_null(strstr(r.text, "nan"));
-    assert_int_equal(r.drawn, 11);
+    assert_int_equal(r.drawn, 13); // two of them charts over time
+    r = (report){0};
+    assert_int_equal(scree_plot("few", take, &r, &error), SCREE_OK);
+    assert_int_equal(r.left_out, 0); // nobody has asked for charts of loading
+    assert_non_null(strstr(r.text, "energy-time.svg"));
     assert_int_equal(plot_only("few", "slip,packing-end", &r, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "slip");
     assert_string_equal(error.message, "series.csv has no rows of a loading stage");
