@@ -49,10 +49,10 @@ scree_status scree_verb_bisect(const scree_command *command)
         if (status)
             (void)scree_terminal_error("bisect", &error);
         else if (!isnan(what.target))
-            printf(
-                "%s: %s is %.6g at %.9g, after %d runs; a test begins there by scree run CASE --after %s/runs/%02d\n",
-                what.key, what.measure, result.measured, result.found, result.runs, call.options.output,
-                result.nearest);
+            printf("%s: %s is %.6g at %.9g, after %d runs; a test begins there by\n"
+                   "scree run CASE --set %s=%.17g --after %s/runs/%02d\n",
+                   what.key, what.measure, result.measured, result.found, result.runs, what.key, result.found,
+                   call.options.output, result.nearest);
         else
             printf("%s: stands at %.9g, not at %.9g, after %d runs: limit %.6g\n", what.key, result.stands,
                    result.fails, result.runs, result.limit);

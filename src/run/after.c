@@ -41,7 +41,7 @@ static scree_status same_models(const scree_model *here, const scree_model *ther
 {
     for (size_t k = 0; k < sizeof derived / sizeof *derived; k++) {
         const double a = number_at(here, derived[k].at), b = number_at(there, derived[k].at);
-        if (a == b || (isnan(a) && isnan(b))) continue;
+        if (a == b || isnan(b)) continue; // what that run did not know, no rate of loading for one, it has not used
         return scree_error_set(error, SCREE_ERROR_INPUT,
                                "%s comes out as %.17g %s of this case and was %.17g %s in that run: a run goes on with "
                                "what it began with, give %s: %.17g %s",

@@ -29,6 +29,16 @@ expect 0 'behind stage confine of whole .stages.2.friction differs' head -1 conf
 run --restart behind --from latest
 same "$("$scree" get behind state_checksum)" "$("$scree" get whole state_checksum)" "restarted"
 
+# behind a sample without a loading of its own, found by a search
+sed '/stage: compress/,/^measure:/{/^measure:/!d}' first.yaml >sample.yaml
+grep -q 'stage: compress' sample.yaml && complain "the sample is loaded"
+search=$("$scree" bisect sample.yaml -q --no-figures -o find --key stages.confine.friction --from 0.05 --to 0.4 --measure coordination \
+    --target 3.6 --tolerance 0.05 2>/dev/null) || complain "no search: $search"
+rest=$(sed -n 's/^scree run CASE //p' <<<"$search")
+# shellcheck disable=SC2086 # words
+run first.yaml $rest -o found
+expect 0 'behind stage confine of find/runs/' head -1 found/log.txt
+
 before=$(md5sum first/run.h5)
 expect 2 "'first' holds the run to go on behind" "$scree" run longer.yaml --after first -o first --force
 expect 2 'the case has no stage behind those' "$scree" run first.yaml --after first -o other

@@ -36,7 +36,7 @@ holds "($told / $exact - 1)^2 < 1e-6^2"
 "$scree" new biaxial | sed '/^quick:/,$d; /stage: compress/,/rate:/d; s/count: 2000/count: 60/; s/windows: .*/windows: []/
     s/paraview: yes/paraview: no/; s/unbalanced_limit: 1e-3/unbalanced_limit: 1e-2/' >confine.yaml
 target=(bisect confine.yaml --key stages.confine.friction --from 0.01 --to 0.5 --measure solid_fraction --quiet --no-figures)
-expect 0 'solid_fraction is 0.8[0-9]* at .* --after find/runs/' "$scree" "${target[@]}" --target 0.83 --tolerance 0.003 -o find
+expect 0 '^scree run CASE --set stages.confine.friction=0[.][0-9]* --after find/runs/' "$scree" "${target[@]}" --target 0.83 --tolerance 0.003 -o find
 holds "($("$scree" get find solid_fraction) / 0.83 - 1)^2 <= 0.003^2"
 nearest=$(printf 'find/runs/%02d' "$("$scree" get find limit_nearest)")
 same "$("$scree" get "$nearest" solid_fraction)" "$("$scree" get find solid_fraction)" 'results are those of the nearest run'

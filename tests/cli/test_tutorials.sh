@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# The commands of the tutorials, all of them, in their small form: the comment "small: ARGUMENTS" above a block adds
+# arguments to its commands that run something (run, bisect, sweep). What pages name has to be there afterwards.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+
+pages=$SCREE_SOURCE_DIR/docs/tutorials
+cp "$pages"/*.yaml "$pages"/*.csv .
+PATH=$(dirname "$scree"):$PATH
+export PATH
+
+# commands PAGE: its blocks of shell commands, the small form applied.
+commands() {
+    awk '/^<!-- small:/ { small = $0; sub(/^<!-- small: */, "", small); sub(/ *-->$/, "", small); next }
+        /^```sh$/ { block = 1; next } /^```/ { block = 0 }
+        block { print $0 ($2 ~ /^(run|bisect|sweep)$/ ? " " small : "") }' "$1"
+}
+
+for page in "$pages"/*.md; do
+    name=$(basename "$page" .md)
+    [ "$name" = README ] && continue
+    grep -q "($name.md)" "$pages/README.md" || complain "the index does not have $name"
+    commands "$page" >"$name.sh"
+    [ "$(grep -c '^scree' "$name.sh")" -ge 1 ] || complain "$name has no commands"
+    awk '/^```sh$/ { n = 0; block = 1; next } /^```/ { block = 0 } block && /^scree/ && ++n > 3 { exit 1 }' "$page" ||
+        complain "$name has more than three commands a task"
+    bash -eu "$name.sh" >"$name.txt" 2>&1 || complain "$name: $(tail -n 5 "$name.txt")"
+done
+for file in *.yaml; do
+    [ "$(grep -c . "$pages/$file")" -le 12 ] || complain "$file has more than ten lines of case"
+done
+
+for file in sand/figures/stress-ratio.png sand/figures/sizes.png own/figures/scene-speed-000000.png hopper/figures/outflow-over-time.png \
+    mu-of-i/table.csv mu-of-i/figures/mu-over-inertial_number.png friction/figures/stress_ratio-over-axial_strain.png \
+    drained/figures/path-p-q.png cyclic/figures/path-p-q.png run/figures/kinetic-elastic_normal-over-axial_strain-compress.png \
+    with-contacts/cuts.csv by-overlaps/values.csv repose/bisection.csv; do
+    [ -s "$file" ] || complain "no $file"
+done
+[ -s run/figures/movie-speed.mp4 ] || [ -s run/figures/movie-speed/frame-000000.png ] || complain "no movie"
+awk -v r="$("$scree" get sand peak_stress_ratio)" 'BEGIN { exit !(r > 1.2 && r < 6) }' || complain "peak of sand"
+awk -v s="$("$scree" get find solid_fraction)" 'BEGIN { exit !(s > 0.81 && s < 0.84) }' || complain "solid fraction of find"
+awk -v u="$("$scree" get own unbalanced_ratio)" 'BEGIN { exit !(u < 1e-3) }' || complain "own grains do not rest"
+# the density of the tests is that of the search
+for name in drained undrained cyclic; do
+    awk -v a="$("$scree" get find solid_fraction)" -v b="$("$scree" get $name solid_fraction_at_start)" \
+        'BEGIN { d = a - b; exit !(d * d < 1e-8) }' || complain "$name begins at another density"
+done
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "mu") m = k; next } !($m > 0.1 && $m < 1) { wrong = 1 } END { exit wrong || NR != 6 }' \
+    mu-of-i/table.csv || complain "mu of the sweep: $(cat mu-of-i/table.csv)"
+finish
