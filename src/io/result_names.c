@@ -39,6 +39,7 @@ const scree_result scree_run_results[] = {
     {"coordination_without_rattlers", "1", "the same without rattlers"},
     {"rattler_fraction", "1", "share of rattlers at the end"},
     {"solid_fraction", "1", "solid fraction at the end"},
+    {"void_ratio", "1", "volume of the voids over that of the particles at the end"},
     {"unbalanced_ratio", "1", "unbalanced force ratio at the end"},
     {"kinetic", "J", "kinetic energy at the end"},
     {"dissipated_damping", "J", "energy dissipated by the dashpots of contacts until the end"},

@@ -211,6 +211,7 @@ static void summarise_series(const scree_series *series, const scree_state *stat
                                          "coordination_without_rattlers",
                                          "rattler_fraction",
                                          "solid_fraction",
+                                         "void_ratio",
                                          "unbalanced_ratio",
                                          "kinetic",
                                          "dissipated_damping",
@@ -219,8 +220,10 @@ static void summarise_series(const scree_series *series, const scree_state *stat
                                          "stress_axial_contacts",
                                          "stress_lateral_contacts",
                                          "stress_shear_contacts"};
-    for (size_t k = 0; k < sizeof finals / sizeof *finals; k++)
-        scree_summary_set_number(summary, finals[k], scree_series_get(series, finals[k])[series->row_count - 1]);
+    for (size_t k = 0; k < sizeof finals / sizeof *finals; k++) {
+        const double *column = scree_series_get(series, finals[k]);
+        if (column) scree_summary_set_number(summary, finals[k], column[series->row_count - 1]);
+    }
 }
 
 static void summarise_run(const scree_recorder *recorder, scree_simulation *s, scree_summary *summary)

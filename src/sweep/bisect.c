@@ -269,6 +269,11 @@ static bool is_found(const search *s)
 /// Why both ends are alike.
 static scree_status refuse_ends(const search *s, const double ends[2], scree_error *error)
 {
+    for (int k = 0; k < 2 && !isnan(s->what->target); k++)
+        if (isnan(s->run[k].measure))
+            return scree_error_set(error, SCREE_ERROR_INPUT,
+                                   "the run with %s = %.6g has no %s: runs/%02d.txt in the folder says why",
+                                   s->what->key, ends[k], s->what->measure, k);
     if (!isnan(s->what->target))
         return scree_error_set(
             error, SCREE_ERROR_INPUT, "%s is %.6g and %.6g at the ends, %s = %.6g and %.6g: %.6g is not between them",
