@@ -3,6 +3,7 @@
 
 #include "io/run_directory.h"
 #include "view/chart.h"
+#include "view/force_figures.h"
 #include "view/links.h"
 #include "view/map.h"
 
@@ -11,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_LINES = 7, SECTORS = 36 };
+enum { MOST_LINES = 7 };
 
 #define LEAST_INSIDE 0.2 /* elements of which less lies in the sample are left white */
 
@@ -238,77 +239,21 @@ static scree_status draw_map(const char *folder, const measure_found *found, con
 
 // ---- forces ------------------------------------------------------------------------------------------------------
 
-/// The distribution of a kind of force in bins of equal width.
-static scree_status draw_distribution(const char *folder, const measure_found *found, scree_error *error)
+static scree_status draw_forces(const char *folder, const measure_found *found, scree_error *error)
 {
-    const scree_average_table *table = &found->mean.of[MEASURE_FORCES];
-    const size_t from = scree_average_table_find(table, "from"), to = scree_average_table_find(table, "to");
-    const size_t of[2] = {scree_average_table_find(table, "contacts"), scree_average_table_find(table, "bottom")};
-    char path[PATH_MAX];
-    size_t n = 0;
-    while (n < table->rows && scree_average_table_get(table, n, 0) == 0) n++;
-    double *x = take(table, from, 0, n, 0.5, error),
-           *y[2] = {take(table, of[0], 0, n, 1, error), take(table, of[1], 0, n, 1, error)};
-    scree_status status = x && y[0] && y[1] ? SCREE_OK : SCREE_ERROR_IO;
-    for (size_t k = 0; k < n && !status; k++) x[k] += 0.5 * scree_average_table_get(table, k, to);
-    if (!status) status = scree_path_join(path, sizeof path, folder, "force-distribution", error);
-    const scree_chart_line line[] = {
-        {.x = x, .y = y[0], .count = n, .label = "contacts, normal", .points = true},
-        {.x = x, .y = y[1], .count = n, .label = "on the floor, vertical", .points = true}};
-    const scree_chart chart = {.title = "Distribution of forces",
-                               .x_label = "force over its mean, n",
-                               .y_label = "P(n)",
-                               .line = line,
-                               .line_count = 2,
-                               .log_y = true};
-    if (!status) status = forgive(scree_chart_draw(path, &chart, error));
-    scree_release(&x);
-    scree_release(&y[0]);
-    scree_release(&y[1]);
-    return status;
-}
-
-static scree_status draw_friction(const char *folder, const measure_found *found, scree_error *error)
-{
-    const scree_average_table *table = &found->mean.of[MEASURE_FRICTION];
-    char path[PATH_MAX];
-    double *x = take(table, 1, 0, table->rows, 1, error), *y = take(table, 2, 0, table->rows, 1, error);
-    scree_status status =
-        x && y ? scree_path_join(path, sizeof path, folder, "friction-distribution", error) : SCREE_ERROR_IO;
-    const scree_chart_line line = {.x = x, .y = y, .count = table->rows, .points = true};
-    const scree_chart chart = {.title = "Mobilised friction",
-                               .x_label = "tangential over normal force",
-                               .y_label = "density",
-                               .line = &line,
-                               .line_count = 1};
-    if (!status) status = forgive(scree_chart_draw(path, &chart, error));
-    scree_release(&x);
-    scree_release(&y);
-    return status;
-}
-
-static scree_status draw_rose(const char *folder, const measure_found *found, scree_error *error)
-{
-    const scree_average_table *table = &found->mean.of[MEASURE_ROSE];
-    const size_t n = table->rows;
-    char path[PATH_MAX];
-    // Sectors of equal solid angle have no place in a plane.
-    if (n != SECTORS) return SCREE_OK;
-    double *angle = take(table, 0, 0, n, M_PI / 180, error), *petal = take(table, 1, 0, n, 1, error);
-    double *line = take(table, 2, 0, n, 1, error);
-    scree_status status =
-        angle && petal && line ? scree_path_join(path, sizeof path, folder, "rose", error) : SCREE_ERROR_IO;
-    const scree_rose rose = {.title = "Directions of contacts and of their forces",
-                             .name = "number of contacts by the direction of their normals, 1 where all are alike",
-                             .line_name = "mean normal force by direction over that of all",
-                             .sectors = n,
-                             .angle = angle,
-                             .petal = petal,
-                             .line = line};
-    if (!status) status = forgive(scree_rose_draw(path, &rose, error));
-    scree_release(&angle);
-    scree_release(&petal);
-    scree_release(&line);
+    static const struct {
+        const char *file;
+        measure_product product;
+        scree_status (*draw)(const char *path, const scree_average_table *table, scree_error *error);
+    } figure[] = {{"force-distribution", MEASURE_FORCES, scree_draw_force_distribution},
+                  {"friction-distribution", MEASURE_FRICTION, scree_draw_friction_distribution},
+                  {"rose", MEASURE_ROSE, scree_draw_contact_rose}};
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < sizeof figure / sizeof *figure && !status; k++) {
+        char path[PATH_MAX];
+        status = scree_path_join(path, sizeof path, folder, figure[k].file, error);
+        if (!status) status = forgive(figure[k].draw(path, &found->mean.of[figure[k].product], error));
+    }
     return status;
 }
 
@@ -353,9 +298,7 @@ scree_status measure_draw(const char *folder, const measure_plan *plan, const me
         status = draw_cuts(folder, plan, found, &cut_figures[k], error);
     for (size_t k = 0; k < sizeof map_figures / sizeof *map_figures && !status; k++)
         status = draw_map(folder, found, &map_figures[k], error);
-    if (!status) status = draw_distribution(folder, found, error);
-    if (!status) status = draw_friction(folder, found, error);
-    if (!status) status = draw_rose(folder, found, error);
+    if (!status) status = draw_forces(folder, found, error);
     if (!status) status = measure_draw_sizes(folder, found, error);
     if (!status && found->fits) status = measure_fit_draw(folder, plan, found->fits, error);
     return status ? status : measure_draw_clouds(folder, plan, found, error);

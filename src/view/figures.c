@@ -9,6 +9,7 @@
     row(times)        /* columns over time, of runs without loading */ \
     row(paths)        /* stress paths over all loading stages */ \
     row(sizes)        /* of the particles */ \
+    row(samples)      /* averages over the grains of snapshots */ \
     row(scenes)       /* single snapshots */ \
     row(cell_maps)    /* cells of a snapshot */ \
     row(fluctuations) /* displacements in the strain windows */ \

@@ -25,6 +25,7 @@ typedef struct scree_rose {
     size_t sectors;
     const double *angle; ///< rad, middle of each
     const double *petal, *line;
+    const double *width; ///< NULL, or rad, of each: angles are elevations then, and both sides are the same
 } scree_rose;
 
 /// path without extension. Errors: as scree_map_draw.

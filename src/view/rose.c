@@ -19,6 +19,12 @@ typedef struct drawing {
     double largest; ///< at the full radius
 } drawing;
 
+/// What a direction on the page stands for where both sides of the rose are the same.
+static int elevation_of(int degree)
+{
+    return degree <= 90 ? degree : degree <= 270 ? 180 - degree : degree - 360;
+}
+
 static void draw_grid(cairo_t *cairo, const drawing *d)
 {
     const scree_ticks ticks = scree_ticks_make(0, d->largest);
@@ -39,7 +45,7 @@ static void draw_grid(cairo_t *cairo, const drawing *d)
         cairo_move_to(cairo, CENTRE, TOP);
         cairo_line_to(cairo, CENTRE + RADIUS * x, TOP + RADIUS * y);
         cairo_stroke(cairo);
-        (void)snprintf(text, sizeof text, "%d°", degree);
+        (void)snprintf(text, sizeof text, "%d°", d->rose->width ? elevation_of(degree) : degree);
         scree_text_show(cairo, CENTRE + (RADIUS + 16) * x, TOP + (RADIUS + 16) * y + 3, 0.5, text, small);
     }
 }
@@ -47,8 +53,8 @@ static void draw_grid(cairo_t *cairo, const drawing *d)
 static void draw_petals(cairo_t *cairo, const drawing *d)
 {
     const scree_rose *r = d->rose;
-    const double half = M_PI / (double)r->sectors;
     for (size_t k = 0; k < r->sectors; k++) {
+        const double half = r->width ? 0.5 * r->width[k] : M_PI / (double)r->sectors;
         if (!(r->petal[k] > 0)) continue;
         cairo_move_to(cairo, CENTRE, TOP);
         cairo_arc(cairo, CENTRE, TOP, RADIUS * r->petal[k] / d->largest, -r->angle[k] - half, -r->angle[k] + half);

@@ -126,6 +126,10 @@ expect 2 "^scree plot: stress-ration: .*\(accepted: stress-ratio\)$" "$scree" pl
 expect 2 '^scree plot: --only: does not go with --list' "$scree" plot out --only stress --list
 expect 2 'shear-ratio: .*no figure of this name' "$scree" plot out --only shear-ratio # of periodic cells
 
+expect 0 'solid-fraction-profile.svg$' "$scree" plot out --only solid-fraction-profile,contact-rose
+awk -F, -v whole="$("$scree" get out solid_fraction)" 'NR > 1 { sum += $1; rows++ } END { exit !(rows > 4 && sum / rows > 0.92 * whole && sum / rows < 1.08 * whole) }' \
+    out/figures/solid-fraction-profile.csv || complain "mean of the profile of the solid fraction against that of the sample"
+
 # --- plot: charts and scenes of one's own
 expect 0 '^out/figures/stress_axial_plates-stress_lateral_applied-over-axial_strain-compress.svg$' \
     "$scree" plot out --x axial_strain --y stress_axial_plates,stress_lateral_applied --stage compress
