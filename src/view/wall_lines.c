@@ -1,4 +1,4 @@
-/// Lines of walls: bends by the topology of their triangles, cuts triangle by triangle.
+/// Lines of walls: bends and outlines by the topology of their triangles, cuts triangle by triangle.
 #include "view/wall_lines.h"
 
 #include "shape/mesh.h"
@@ -22,6 +22,30 @@ static double along(const double axis[3], const double place[3])
     return axis[0] * place[0] + axis[1] * place[1] + axis[2] * place[2];
 }
 
+/// A page: two directions in space.
+typedef struct page_axes {
+    const double *right, *up;
+} page_axes;
+
+/// On which side of edge e, as it lies on the page, triangle t of it lies.
+static double side_of(const scree_mesh *mesh, const page_axes *page, size_t e, uint32_t t)
+{
+    const double *a = mesh->vertex[mesh->edge[e][0]], *b = mesh->vertex[mesh->edge[e][1]], *c = NULL;
+    for (int k = 0; k < 3; k++)
+        if (mesh->triangle[t][k] != mesh->edge[e][0] && mesh->triangle[t][k] != mesh->edge[e][1])
+            c = mesh->vertex[mesh->triangle[t][k]];
+    if (!c) return 0;
+    const double x = along(page->right, b) - along(page->right, a), y = along(page->up, b) - along(page->up, a);
+    return x * (along(page->up, c) - along(page->up, a)) - y * (along(page->right, c) - along(page->right, a));
+}
+
+/// The surface turns back there as it is seen: the outline of a round wall.
+static bool is_outline(const scree_mesh *mesh, const page_axes *page, size_t e)
+{
+    const uint32_t *list = &mesh->edge_list[mesh->edge_begin[e]];
+    return side_of(mesh, page, e, list[0]) * side_of(mesh, page, e, list[1]) > 0;
+}
+
 scree_status scree_wall_edges(const scree_snapshot *solid, const double right[3], const double up[3],
                               scree_snapshot *plane, scree_error *error)
 {
@@ -32,8 +56,9 @@ scree_status scree_wall_edges(const scree_snapshot *solid, const double right[3]
     if (status == SCREE_ERROR_INPUT) return SCREE_OK; // nothing that has an area
     if (status) return status;
     status = scree_allocate(&plane->wall_line, 4 * mesh.edge_count, sizeof *plane->wall_line, error);
+    const page_axes page = {right, up};
     for (size_t e = 0; e < mesh.edge_count && !status; e++) {
-        if (!is_sharp(&mesh, e)) continue;
+        if (!is_sharp(&mesh, e) && !is_outline(&mesh, &page, e)) continue;
         double *line = &plane->wall_line[4 * plane->wall_line_count++];
         for (int end = 0; end < 2; end++) {
             const double *place = mesh.vertex[mesh.edge[e][end]];

@@ -4,8 +4,8 @@
 
 #include "io/snapshot.h"
 
-/// Edges at which the walls of `solid` bend or end, projected on the directions `right` and `up`, as wall lines of
-/// `plane`. Errors: memory.
+/// Edges at which the walls of `solid` bend or end, and the outlines of round ones, projected on the directions `right`
+/// and `up`, as wall lines of `plane`. Errors: memory.
 scree_status scree_wall_edges(const scree_snapshot *solid, const double right[3], const double up[3],
                               scree_snapshot *plane, scree_error *error) SCREE_MUST_USE;
 

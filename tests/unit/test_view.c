@@ -15,6 +15,7 @@
 #include "view/page.h"
 #include "view/scale.h"
 #include "view/scene.h"
+#include "view/wall_lines.h"
 
 #include <math.h>
 #include <sys/stat.h>
@@ -551,9 +552,39 @@ static void missing_or_failing_gnuplot_is_an_error_with_its_message(void **state
     free(path);
 }
 
+/// An open cylinder seen from the side: its rims, and where it turns away from the eye two straight lines.
+static void round_walls_have_an_outline(void **state)
+{
+    (void)state;
+    enum { SIDES = 48 };
+    static double triangle[2 * SIDES][9];
+    for (int k = 0; k < SIDES; k++) {
+        const double a = 2 * M_PI * k / SIDES, b = 2 * M_PI * ((k + 1) % SIDES) / SIDES;
+        const double low[9] = {cos(a), sin(a), 0, cos(b), sin(b), 0, cos(a), sin(a), 3};
+        const double high[9] = {cos(b), sin(b), 0, cos(b), sin(b), 3, cos(a), sin(a), 3};
+        memcpy(triangle[2 * k], low, sizeof low);
+        memcpy(triangle[2 * k + 1], high, sizeof high);
+    }
+    scree_snapshot solid = {.dimension = 3, .wall_triangle_count = 2 * SIDES, .wall_triangle = triangle[0]};
+    scree_snapshot plane = {.dimension = 2};
+    const double right[3] = {1, 0, 0}, up[3] = {0, 0, 1};
+    assert_int_equal(scree_wall_edges(&solid, right, up, &plane, NULL), SCREE_OK);
+    int upright = 0;
+    for (size_t k = 0; k < plane.wall_line_count; k++) {
+        const double *line = &plane.wall_line[4 * k];
+        if (fabs(line[3] - line[1]) < 1) continue;
+        assert_true(fabs(fabs(line[0]) - 1) < 1e-12 && fabs(line[2] - line[0]) < 1e-12);
+        upright++;
+    }
+    assert_int_equal(upright, 2);
+    assert_int_equal(plane.wall_line_count, 2 * SIDES + 2);
+    scree_release(&plane.wall_line);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(round_walls_have_an_outline),
         cmocka_unit_test(sequential_lightness_falls_evenly),
         cmocka_unit_test(diverging_lightness_falls_evenly_to_both_sides),
         cmocka_unit_test(colours_clamp_and_undefined_is_grey),
