@@ -25,6 +25,7 @@
 #include "io/vtp.h"
 #include "state/periodic.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
@@ -441,14 +442,46 @@ static scree_status renew_collection(const char *folder, const char *kind, const
     return scree_replace_finish(path, file, true, error);
 }
 
+/// All files of a snapshot as the blocks of one, KIND-INDEX.vtm.
+typedef struct blocks {
+    char line[1024];
+    size_t length, count;
+} blocks;
+
+static void add_block(blocks *all, const char *kind, const char *file)
+{
+    const int length = snprintf(all->line + all->length, sizeof all->line - all->length,
+                                "    <DataSet index=\"%zu\" name=\"%s\" file=\"%s\"/>\n", all->count++, kind, file);
+    all->length += (size_t)length;
+    assert(all->length < sizeof all->line);
+}
+
+static scree_status write_blocks(const blocks *all, const char *folder, const scree_snapshot_info *info,
+                                 scree_error *error)
+{
+    char path[PATH_MAX], name[64];
+    FILE *file;
+    (void)snprintf(name, sizeof name, "all-%06" PRId64 ".vtm", info->index);
+    scree_status status = scree_path_join(path, sizeof path, folder, name, error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    fprintf(file,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\">\n"
+            "  <vtkMultiBlockDataSet>\n%s  </vtkMultiBlockDataSet>\n</VTKFile>\n",
+            all->line);
+    status = scree_replace_finish(path, file, true, error);
+    return status ? status : renew_collection(folder, "all", "vtm", info->index, info->time, error);
+}
+
 static scree_status write_scene(const scree_vtp *vtp, const char *folder, const char *kind,
-                                const scree_snapshot_info *info, scree_error *error)
+                                const scree_snapshot_info *info, blocks *all, scree_error *error)
 {
     char path[PATH_MAX], name[64];
     const char *extension = vtp->types.data ? "vtu" : "vtp";
     (void)snprintf(name, sizeof name, "%s-%06" PRId64 ".%s", kind, info->index, extension);
     scree_status status = scree_path_join(path, sizeof path, folder, name, error);
     if (!status) status = scree_vtp_write(vtp, path, info->time, error);
+    add_block(all, kind, name);
     if (!status) status = renew_collection(folder, kind, extension, info->index, info->time, error);
     return status;
 }
@@ -470,6 +503,7 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
                   {"plates", build_plates, 0},     {"lattice", build_lattice, 0},  {"walls", build_walls, 0},
                   {"cells", build_cells, 0},       {"polygons", build_polygons, 2}};
     const scene from = {model, state, table, info->cells, info->walls};
+    blocks all = {0};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
@@ -481,8 +515,8 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;
         if (scree_cell(state)->directions ? around : scenes[k].build == build_lattice) continue;
         status = scenes[k].build(&vtp, &from, error);
-        if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
+        if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, &all, error);
         scree_vtp_destroy(&vtp);
     }
-    return status;
+    return status ? status : write_blocks(&all, folder, info, error);
 }

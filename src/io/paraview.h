@@ -1,6 +1,7 @@
 /// ParaView files, written without VTK: discs as points, contacts, Delaunay boundary and plates as lines (.vtp), and
-/// .pvd collections with the times, which are replaced after every snapshot. Binary appended raw data in the byte order
-/// of the machine, which the files name.
+/// .pvd collections with the times, which are replaced after every snapshot. Appended data in the byte order of the
+/// machine, which the files name, packed and in single precision (io/vtk_data.h). all.pvd has everything: the files of
+/// a snapshot are the blocks of all-INDEX.vtm.
 #ifndef SCREE_IO_PARAVIEW_H
 #define SCREE_IO_PARAVIEW_H
 

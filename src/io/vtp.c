@@ -2,9 +2,9 @@
 #include "io/vtp.h"
 
 #include "io/run_directory.h"
+#include "io/vtk_data.h"
 
 #include <assert.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -110,56 +110,37 @@ scree_status scree_vtp_add(scree_vtp *vtp, bool of_cells, scree_array array, scr
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-static const char *type_name(scree_field_type type)
-{
-    switch (type) {
-    case SCREE_FIELD_DOUBLE:
-        return "Float64";
-    case SCREE_FIELD_INT64:
-        return "Int64";
-    case SCREE_FIELD_UINT64:
-        return "UInt64";
-    case SCREE_FIELD_FLOAT:
-        return "Float32";
-    case SCREE_FIELD_INT32:
-        return "Int32";
-    case SCREE_FIELD_UINT32:
-        return "UInt32";
-    case SCREE_FIELD_UINT8:
-        break;
-    }
-    return "UInt8";
-}
+/// A file on its way: the head is written while the arrays are packed, whose places it tells.
+typedef struct writing {
+    FILE *file;
+    scree_vtk_data data;
+    scree_status status;
+    scree_error *error;
+} writing;
 
-static uint64_t bytes_of(const scree_array *array)
+/// The element that announces an array.
+static void announce(writing *w, const scree_array *array)
 {
-    return (uint64_t)array->rows * (uint64_t)array->components * scree_field_size(array->type);
-}
-
-/// The element that announces an array, whose bytes begin at *offset; *offset moves on to the next one.
-static void announce(FILE *file, const scree_array *array, uint64_t *offset)
-{
-    fprintf(file,
-            "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
-            "\"",
-            type_name(array->type), array->name, array->components, *offset);
+    fprintf(w->file,
+            "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%zu\"",
+            scree_vtk_type(array), array->name, array->components, w->data.count);
     if (array->unit && strcmp(array->unit, "1") != 0)
-        fprintf(file,
+        fprintf(w->file,
                 "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">%s</InformationKey></DataArray>\n",
                 array->unit);
     else
-        fputs("/>\n", file);
-    *offset += sizeof(uint64_t) + bytes_of(array);
+        fputs("/>\n", w->file);
+    if (!w->status) w->status = scree_vtk_pack(&w->data, array, w->error);
 }
 
-static void announce_section(FILE *file, const char *section, const scree_array *arrays, size_t count, uint64_t *offset)
+static void announce_section(writing *w, const char *section, const scree_array *arrays, size_t count)
 {
-    fprintf(file, "      <%s>\n", section);
-    for (size_t k = 0; k < count; k++) announce(file, &arrays[k], offset);
-    fprintf(file, "      </%s>\n", section);
+    fprintf(w->file, "      <%s>\n", section);
+    for (size_t k = 0; k < count; k++) announce(w, &arrays[k]);
+    fprintf(w->file, "      </%s>\n", section);
 }
 
-static void write_head(FILE *file, const scree_vtp *vtp, double time)
+static void write_head(writing *w, const scree_vtp *vtp, double time)
 {
     static const char *const sections[] = {
         [SCREE_VTP_POINTS] = "Verts",
@@ -172,11 +153,12 @@ static void write_head(FILE *file, const scree_vtp *vtp, double time)
     const bool grid = vtp->types.data != NULL;
     const char *kind = grid ? "UnstructuredGrid" : "PolyData";
     const scree_array cells[] = {vtp->connectivity, vtp->ends, vtp->types};
-    uint64_t offset = 0;
+    FILE *file = w->file;
     fprintf(
         file,
         "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
+        "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME
+        "\" header_type=\"UInt64\" compressor=\"" SCREE_VTK_PACKING "\">\n"
         "  <%s>\n"
         "    <FieldData>\n"
         "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"
@@ -188,32 +170,23 @@ static void write_head(FILE *file, const scree_vtp *vtp, double time)
     else
         fprintf(file, " NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" NumberOfPolys=\"%zu\">\n",
                 points ? count : 0, lines ? count : 0, points || lines ? 0 : count);
-    announce_section(file, "Points", &vtp->points, 1, &offset);
-    announce_section(file, grid ? "Cells" : sections[vtp->cells], cells, grid ? 3 : 2, &offset);
-    announce_section(file, "PointData", vtp->point_data, vtp->point_data_count, &offset);
-    announce_section(file, "CellData", vtp->cell_data, vtp->cell_data_count, &offset);
+    announce_section(w, "Points", &vtp->points, 1);
+    announce_section(w, grid ? "Cells" : sections[vtp->cells], cells, grid ? 3 : 2);
+    announce_section(w, "PointData", vtp->point_data, vtp->point_data_count);
+    announce_section(w, "CellData", vtp->cell_data, vtp->cell_data_count);
     fprintf(file, "    </Piece>\n  </%s>\n  <AppendedData encoding=\"raw\">\n_", kind);
-}
-
-static bool append(FILE *file, const scree_array *array)
-{
-    uint64_t bytes = bytes_of(array);
-    return fwrite(&bytes, sizeof bytes, 1, file) == 1 &&
-           (bytes == 0 || fwrite(array->data, 1, (size_t)bytes, file) == bytes);
 }
 
 scree_status scree_vtp_write(const scree_vtp *vtp, const char *path, double time, scree_error *error)
 {
-    FILE *file;
-    scree_status status = scree_replace_begin(path, &file, error);
+    writing w = {.error = error};
+    scree_status status = scree_replace_begin(path, &w.file, error);
     if (status) return status;
-    write_head(file, vtp, time);
-    bool whole = append(file, &vtp->points) && append(file, &vtp->connectivity) && append(file, &vtp->ends);
-    if (vtp->types.data) whole = whole && append(file, &vtp->types);
-    for (size_t k = 0; k < vtp->point_data_count && whole; k++) whole = append(file, &vtp->point_data[k]);
-    for (size_t k = 0; k < vtp->cell_data_count && whole; k++) whole = append(file, &vtp->cell_data[k]);
-    if (!whole) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
-    fputs("\n  </AppendedData>\n</VTKFile>\n", file);
-    scree_status finished = scree_replace_finish(path, file, whole, whole ? error : NULL);
-    return status ? status : finished;
+    write_head(&w, vtp, time);
+    if (!w.status && fwrite(w.data.byte, 1, w.data.count, w.file) != w.data.count)
+        w.status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
+    fputs("\n  </AppendedData>\n</VTKFile>\n", w.file);
+    scree_vtk_data_destroy(&w.data);
+    const scree_status finished = scree_replace_finish(path, w.file, !w.status, w.status ? NULL : error);
+    return w.status ? w.status : finished;
 }

@@ -1,6 +1,6 @@
 /// VTK's XML format for points, lines, triangles and quadrilaterals in space (.vtp), and for grids of triangles or
 /// tetrahedra (.vtu), written without VTK: an XML head that says which arrays there are and at which byte they begin,
-/// and the arrays behind it as raw bytes, each after its length (UInt64) in bytes. Source: the VTK file formats,
+/// and the arrays behind it as packed bytes (io/vtk_data.h). Source: the VTK file formats,
 /// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #ifndef SCREE_IO_VTP_H
 #define SCREE_IO_VTP_H
