@@ -1,5 +1,6 @@
 /// Reads the tree of a case into the config, section by section, along the schema.
 #include "case/check.h"
+#include "module/preparation.h"
 
 #include "base/memory.h"
 #include "case/csv.h"
@@ -283,6 +284,20 @@ bool scree_root_read(scree_reader *reader, const scree_section *section, void *b
     return true;
 }
 
+/// The method of preparation adds what the case leaves out.
+static void supply(scree_reader *reader)
+{
+    const scree_node *stages = scree_node_find(reader->root, "stages");
+    const scree_node *first = stages && stages->kind == SCREE_NODE_LIST ? scree_node_at(stages, 0) : NULL;
+    const scree_node *method = first && first->kind == SCREE_NODE_MAPPING ? scree_node_find(first, "method") : NULL;
+    if (!method || !method->text) return;
+    for (size_t m = 0; m < SCREE_MODULE_COUNT; m++) {
+        const scree_preparation *preparation = scree_modules[m]->preparation;
+        if (preparation && preparation->supply && strcmp(scree_modules[m]->name, method->text) == 0)
+            preparation->supply(reader, first);
+    }
+}
+
 void scree_config_read(scree_reader *reader, scree_config *config)
 {
     if (!scree_schema_is_whole()) {
@@ -291,6 +306,7 @@ void scree_config_read(scree_reader *reader, scree_config *config)
                           "(src/case/schema_build.c, MOST_KEYS to ALL_TEXT)");
         return;
     }
+    if (reader->root->kind == SCREE_NODE_MAPPING) supply(reader);
     // Where memory ran out, what is tied together need not be there.
     if (scree_root_read(reader, scree_schema(), config) && !reader->failure.status) scree_rules_check(reader, config);
 }

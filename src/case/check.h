@@ -47,6 +47,9 @@ bool scree_element_name(const scree_key *list, const scree_node *parent, const s
 /// there are no keys at all.
 bool scree_root_read(scree_reader *reader, const scree_section *section, void *base);
 
+/// Gives the tree of a case a value that the case leaves out. path: a key path such as "particles.count".
+void scree_case_supply(scree_reader *reader, const char *path, const char *text);
+
 /// Reads the whole tree into `config` (zeroed before), applies the rules, notes all problems.
 void scree_config_read(scree_reader *reader, scree_config *config);
 

@@ -33,6 +33,17 @@ void scree_quick_apply(scree_reader *reader)
     }
 }
 
+void scree_case_supply(scree_reader *reader, const char *path, const char *text)
+{
+    const scree_place place = reader->root->place;
+    const scree_node scalar = {
+        .kind = SCREE_NODE_SCALAR, .text = scree_arena_copy(reader->arena, text, strlen(text)), .place = place};
+    if (scalar.text)
+        scree_path_set(reader, path, &scalar, place);
+    else
+        scree_reader_fail(reader, strlen(text));
+}
+
 void scree_override_apply(scree_reader *reader, const char *text)
 {
     char source[256];

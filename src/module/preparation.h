@@ -6,6 +6,7 @@
 
 struct scree_config_stage;
 struct scree_packing;
+struct scree_node;
 
 typedef struct scree_preparation {
     // ---- traits ----
@@ -21,6 +22,11 @@ typedef struct scree_preparation {
     bool turned;           ///< its horizontal axes are diagonals of the cubic cell
     int only_dimension;    ///< exists in this dimension alone; 0: in both
     const char *elsewhere; ///< method that takes its place in the other dimension
+
+    /// Gives a case what it leaves out and this method knows (scree_case_supply), before it is read; `stage` is the
+    /// mapping of its stage in the tree. Notes no problem: what is wrong is found by the reading. NULL: it knows
+    /// nothing.
+    void (*supply)(scree_reader *reader, const struct scree_node *stage);
 
     // ---- what the model asks before there is a sample; each may be NULL ----
     /// What is wrong with the stage, besides a box that is too small.

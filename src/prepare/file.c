@@ -5,6 +5,8 @@
 /// has a box, `at` is its lower corner, else its origin. Nothing is drawn at random. Cost: that of reading the file
 /// twice, once for the checks.
 #include "base/memory.h"
+#include "base/units.h"
+#include "case/check.h"
 #include "case/own_file.h"
 #include "grains/grains.h"
 #include "module/key_rows.h"
@@ -13,6 +15,7 @@
 #include "prepare/prepare.h"
 #include "state/body.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,7 +48,8 @@ static const scree_key keys[] = {
     NUMBER(config, height, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), WITH_FILE,
            .meaning = "Height of the box, which begins at the origin; auto: as far as the bodies reach."),
     KEY(config, file, SCREE_KEY_TEXT, FROM("1"), TO("4000"), WITH_FILE,
-        .meaning = "File of the particles, relative to the case file."),
+        .meaning = "File of the particles, relative to the case file. What `particles` leaves out is as there: count, "
+                   "radius_min and radius_max, the material where there is but one."),
     SCREE_OWN_FILE_CHECKSUM(config, checksum, WITH_FILE),
     CHOICE(config, format, formats, .standard = "auto", WITH_FILE, .meaning = "Of the file."),
     NUMBER(config, length_unit, "m", .standard = "1 m", ABOVE("0 m"), TO("1e6 m"), WITH_FILE,
@@ -89,6 +93,76 @@ static scree_status load(const config *own, double common_radius, scree_grains *
     return status;
 }
 
+// ---- what a case may leave out -------------------------------------------------------------------------------------
+
+static const char *text_of(const scree_node *mapping, const char *key)
+{
+    const scree_node *child = mapping ? scree_node_find(mapping, key) : NULL;
+    return child && child->kind == SCREE_NODE_SCALAR ? child->text : NULL;
+}
+
+/// A number of the stage; NAN: it is wrong, or `auto`.
+static double number_of(const scree_node *stage, const char *key, const char *unit, double otherwise)
+{
+    const char *text = text_of(stage, key);
+    double value = NAN;
+    scree_error ignored;
+    if (!text) return otherwise;
+    return scree_units_parse(text, unit, &value, &ignored) ? NAN : value;
+}
+
+/// In as few digits as say it.
+static void supply_length(scree_reader *reader, const char *path, double length)
+{
+    char text[40];
+    int digits = 6;
+    do (void)snprintf(text, sizeof text, "%.*g m", digits, length);
+    while (strtod(text, NULL) != length && ++digits <= 17);
+    scree_case_supply(reader, path, text);
+}
+
+static void supply_radii(scree_reader *reader, const scree_grains *g, double factor)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < g->count; i++) {
+        least = fmin(least, factor * g->column[SCREE_GRAIN_RADIUS][i]);
+        most = fmax(most, factor * g->column[SCREE_GRAIN_RADIUS][i]);
+    }
+    if (!(least > 0)) return;
+    supply_length(reader, "particles.radius_min", least);
+    supply_length(reader, "particles.radius_max", most);
+}
+
+/// Number, limits of the radii and, where there is but one, the material of the particles are those of the file.
+static void supply(scree_reader *reader, const scree_node *stage)
+{
+    const scree_node *particles = scree_node_find(reader->root, "particles");
+    const scree_node *materials = scree_node_find(reader->root, "materials");
+    const char *format = text_of(stage, "format"), *file = text_of(stage, "file");
+    const double length = number_of(stage, "length_unit", "m", 1), factor = number_of(stage, "radius_factor", "1", 1);
+    const bool count = !text_of(particles, "count"), sized = text_of(particles, "distribution") ||
+                                                             text_of(particles, "radius_min") ||
+                                                             text_of(particles, "radius_max");
+    char path[2 * PATH_MAX], text[40];
+    scree_grains g;
+    scree_error ignored;
+    if (!file || !(length > 0) || !(factor > 0) || (particles && particles->kind == SCREE_NODE_LIST)) return;
+    if (!text_of(particles, "material") && materials && materials->kind == SCREE_NODE_LIST && materials->count == 1 &&
+        text_of(scree_node_at(materials, 0), "name"))
+        scree_case_supply(reader, "particles.material", text_of(scree_node_at(materials, 0), "name"));
+    if (!count && sized) return;
+    const scree_grains_options options = {.format = format && strcmp(format, "auto") != 0 ? format : NULL,
+                                          .length = length,
+                                          .time = 1,
+                                          .frame = number_of(stage, "frame", "1", NAN)};
+    scree_file_beside(reader, file, path, sizeof path);
+    if (scree_grains_read(path, &options, &g, &ignored)) return; // the rules say why
+    (void)snprintf(text, sizeof text, "%zu", g.count);
+    if (count) scree_case_supply(reader, "particles.count", text);
+    if (!sized && g.column[SCREE_GRAIN_RADIUS]) supply_radii(reader, &g, factor);
+    scree_grains_destroy(&g);
+}
+
 // ---- rules ---------------------------------------------------------------------------------------------------------
 
 /// The file under judgement.
@@ -116,8 +190,9 @@ static void check_box(const judged *j)
 {
     const double *tilt = j->g->tilt;
     if (tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0)
-        scree_rule_refuse(j->reader, "stages.0.file", NULL,
-                          "its box is tilted; a box with right angles is needed (scree measure takes tilted ones, too)");
+        scree_rule_refuse(
+            j->reader, "stages.0.file", NULL,
+            "its box is tilted; a box with right angles is needed (scree measure takes tilted ones, too)");
 }
 
 /// The material of the case that each kind of the file means.
@@ -377,6 +452,7 @@ static const scree_preparation preparation = {
     .periodic = true,
     .approaching = true,
     .sizes_box = true,
+    .supply = supply,
     .count = count_of,
     .uses = uses,
     .height = height_of,

@@ -321,6 +321,38 @@ static void cases_are_checked(void **unused)
     expect_refused("x [mm],y [mm]\n1.5,1\n4,1\n6,2\n", NULL, 0, "the file has no radii");
 }
 
+/// What particles leave out, the file says: number, limits of the radii, and the material where there is but one.
+static void a_case_leaves_out_what_the_file_says(void **unused)
+{
+    (void)unused;
+    char text[4000];
+    const char *path = write_file("grains.csv", "x [mm],y [mm],radius [mm]\n1.5,1,1\n4,1,0.5\n6,2,0.75\n");
+    const char *const begin =
+        "scree: 1\nname: own\nmaterials: [{name: sand, young_modulus: 10 MPa, density: 2000 kg/m3, friction: 0.3}]\n";
+    const char *const particles[] = {"", "particles: {material: sand}\n", "particles: {count: 3}\n",
+                                     "particles: {radius_min: 0.4 mm, radius_max: 2 mm}\n"};
+    for (int k = 0; k < 4; k++) {
+        (void)snprintf(text, sizeof text,
+                       "%s%s" OUT "stages:\n- {stage: prepare, method: file, file: %s, width: 8 mm, height: 4 mm, "
+                       "radius_factor: 0.9}\n- {stage: relax, duration: 1 us, boundary: plates}\n",
+                       begin, particles[k], path);
+        scree_case *c = case_read(text, NULL, 0);
+        const scree_config *config = &c->config;
+        const scree_size_moments sizes = scree_listed_sizes(config);
+        assert_int_equal(config->particles.count, 3);
+        assert_string_equal(config->particles.material, "sand");
+        assert_true(k == 3 ? sizes.least == 0.4e-3 : fabs(sizes.least - 0.45e-3) < 1e-18);
+        assert_true(k == 3 ? sizes.most == 2e-3 : fabs(sizes.most - 0.9e-3) < 1e-18);
+        scree_case_free(c);
+    }
+    const char *const missing[] = {"stages.0.file=/nowhere.csv"};
+    (void)snprintf(text, sizeof text, "%s" OUT "stages: [{stage: prepare, method: file, file: %s}]\n", begin, path);
+    expect_case_refused(text, missing, 1, "particles.count: required");
+    // Two materials: which one is not known.
+    (void)snprintf(text, sizeof text, HEAD OUT "stages: [{stage: prepare, method: file, file: %s}]\n", path);
+    expect_case_refused(text, NULL, 0, "particles.material: required");
+}
+
 /// A list may stand in a table, too: its columns are the keys of each element.
 static void gradings_stand_in_files(void **unused)
 {
@@ -358,8 +390,9 @@ int main(void)
         cmocka_unit_test(tables_have_names_and_units), cmocka_unit_test(dumps_of_lammps),
         cmocka_unit_test(data_files_of_lammps),        cmocka_unit_test(exports_of_yade),
         cmocka_unit_test(what_is_wrong_is_shown),      cmocka_unit_test(overlaps_are_found),
-        cmocka_unit_test(a_case_starts_from_a_file),   cmocka_unit_test(cases_are_checked),
-        cmocka_unit_test(gradings_stand_in_files),     cmocka_unit_test(snapshots_of_runs),
+        cmocka_unit_test(a_case_starts_from_a_file),   cmocka_unit_test(a_case_leaves_out_what_the_file_says),
+        cmocka_unit_test(cases_are_checked),           cmocka_unit_test(gradings_stand_in_files),
+        cmocka_unit_test(snapshots_of_runs),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }
