@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "io/run_directory.h"
+#include "view/png_file.h"
 
 #include <cairo-svg.h>
 #include <limits.h>
@@ -38,7 +39,7 @@ static cairo_status_t draw_png(FILE *file, const scree_page *page)
     page->draw(cairo, page->user);
     cairo_status_t status = cairo_status(cairo);
     cairo_destroy(cairo);
-    if (!status) status = cairo_surface_write_to_png_stream(surface, append, file);
+    if (!status) status = scree_png_write(file, surface);
     cairo_surface_destroy(surface);
     return status;
 }
