@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define WIDTH      720 /* pt of the SVG; the PNG has PNG_SCALE pixels for each */
+#define WIDTH      720 /* pt of the SVG; the PNG has PNG_SCALE pixels for each, unless others were chosen */
 #define HEIGHT     450
 #define PNG_SCALE  3
 #define COLOURS    7
@@ -401,9 +401,11 @@ static void write_script(FILE *file, const scree_chart *chart, const char *name)
                    "svg size %d,%d dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'", WIDTH, HEIGHT);
     write_output(file, name, "svg", terminal);
     write_plot(file, chart, name);
+    const int asked = scree_page_chosen_pixels();
+    const double scale = asked > 0 ? asked / (double)WIDTH : PNG_SCALE;
     (void)snprintf(terminal, sizeof terminal,
-                   "pngcairo size %d,%d enhanced font 'DejaVu Sans,10' fontscale %d linewidth %d", WIDTH * PNG_SCALE,
-                   HEIGHT * PNG_SCALE, PNG_SCALE, PNG_SCALE);
+                   "pngcairo size %.0f,%.0f enhanced font 'DejaVu Sans,10' fontscale %.4g linewidth %.4g",
+                   WIDTH * scale, HEIGHT * scale, scale, scale);
     write_output(file, name, "png", terminal);
     fputs("replot\nset output\n", file);
 }
