@@ -387,6 +387,7 @@ static void write_style(FILE *file, const scree_chart *chart)
     const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
     fprintf(file, "set offsets %s, %s, graph 0.03, %s\n%s", side, side, zero ? "0" : "graph 0.03",
             zero ? "set yrange [0:]\n" : "");
+    if (chart->highest_y > 0) fprintf(file, "set yrange [0:%g]\n", chart->highest_y);
     write_x_names(file, chart, find_crowd(chart, legend));
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
