@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PREFIX ?= /usr/local
 
-.PHONY: all packages programs demo test reproduce reproduce-full reference reference-check bench bench-estimates install clean help sanitize
+.PHONY: all packages programs demo test gallery site reproduce reproduce-full reference reference-check bench bench-estimates install clean help sanitize
 all: ## build/scree and libscree (static and shared)
 	@mkdir -p $(BUILD)
 	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
@@ -49,11 +49,18 @@ bench-estimates: all ## what `scree check` promises against what runs take: minu
 sanitize: packages ## the tests under the address, undefined and thread sanitizers
 	@for p in asan tsan; do cmake --preset $$p >/dev/null && cmake --build --preset $$p -j $(JOBS) && ctest --preset $$p -j $(JOBS) || exit 1; done
 
+gallery: all ## docs/gallery.md and its pictures anew: runs of some seconds each, in all some minutes
+	@bash docs/make_gallery.sh $(BUILD)/scree
+
+site: ## the documentation as pages for a browser, with search, into build-site/
+	@bash cmake/packages.sh --site
+	@bash cmake/site.sh build-site
+
 install: all ## into PREFIX (default /usr/local)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
 clean: ## remove what was built
-	@rm -rf build build-dev build-asan build-tsan build-clang out-demo
+	@rm -rf build build-dev build-asan build-tsan build-clang build-site out-demo
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 18

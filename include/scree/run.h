@@ -103,6 +103,11 @@ SCREE_API scree_status scree_export_lammps(const char *directory, const char *st
 /// on the first; point [m]. `scree_measure` reads it beside the dump of the grains.
 SCREE_API scree_status scree_export_contacts(const char *directory, const char *stage, const char *path, size_t *frames,
                                              scree_error *error);
+/// Chooses the long side of PNG figures in pixels, "200" to "20000", for all that this process draws from now on; NULL:
+/// 2000, of charts 2160. The program `scree` calls this with SCREE_PIXELS. Errors: SCREE_ERROR_INPUT: no such number;
+/// nothing is changed then.
+SCREE_API scree_status scree_figure_pixels_choose(const char *text, scree_error *error);
+
 /// Draws the usual figures of a run, at most some ten, into `directory`/figures. `message` tells which; may be NULL.
 /// Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT while a run goes on there.
 SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,

@@ -19,14 +19,21 @@ static void keep_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
 }
 
-/// SCREE_ISA in the environment forces an instruction set (docs/performance.md).
-static scree_status choose_instruction_set(void)
+/// What the environment chooses (scree_environment).
+static scree_status read_environment(void)
 {
+    static const struct {
+        const char *name;
+        scree_status (*choose)(const char *text, scree_error *error);
+    } choices[] = {{"SCREE_ISA", scree_instruction_set_choose}, {"SCREE_PIXELS", scree_figure_pixels_choose}};
     scree_error error;
-    const char *name = getenv("SCREE_ISA");
-    if (!name || !*name || !scree_instruction_set_choose(name, &error)) return SCREE_OK;
-    (void)snprintf(error.field, sizeof error.field, "SCREE_ISA");
-    return scree_terminal_error(NULL, &error);
+    for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
+        const char *text = getenv(choices[k].name);
+        if (!text || !*text || !choices[k].choose(text, &error)) continue;
+        (void)snprintf(error.field, sizeof error.field, "%s", choices[k].name);
+        return scree_terminal_error(NULL, &error);
+    }
+    return SCREE_OK;
 }
 
 /// What was printed has to arrive. A verb that failed has said why; a reader that has gone away (`scree get out | head
@@ -74,7 +81,7 @@ int main(int argc, char **argv)
         scree_help_write(stderr);
         return SCREE_ERROR_INPUT;
     }
-    scree_status status = choose_instruction_set();
+    scree_status status = read_environment();
     if (status) return (int)status;
     const char *first = argv[1];
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)

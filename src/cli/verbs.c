@@ -20,6 +20,7 @@ const scree_verb_example scree_environment[] = {
     {"NO_COLOR", "not empty: no colours, and no line that is rewritten"},
     {"SCREE_ISA", "v2, v3 or v4: compute with the instructions of x86-64-v2, -v3 or -v4 in place of the best that this "
                   "processor has; the results do not depend on it"},
+    {"SCREE_PIXELS", "long side of PNG figures in pixels, 200 to 20000 (2000, of charts 2160, where it is not set)"},
     {NULL, NULL},
 };
 

@@ -29,7 +29,15 @@ static void add_square(scree_wall_triangles *triangles, const scree_surface *sur
     add(triangles, surface, wall, (const double *const[3]){corner[0], corner[2], corner[3]});
 }
 
-/// A plane: a square around the middle of the bodies; in 2D a line.
+/// Half of how far the part of a plane that is shown reaches in a direction: as far as the bodies, and a little
+/// further.
+static double half_width(const double size[3], const double direction[3])
+{
+    const double beyond = 0.1 * sqrt(scree_dot(size, size));
+    return 0.5 * (fabs(direction[0]) * size[0] + fabs(direction[1]) * size[1] + fabs(direction[2]) * size[2]) + beyond;
+}
+
+/// A plane: a rectangle beside the bodies; in 2D a line.
 static void add_plane(scree_wall_triangles *triangles, const scree_surface *surface, int wall, int dimension,
                       const double low[3], const double high[3])
 {
@@ -37,13 +45,13 @@ static void add_plane(scree_wall_triangles *triangles, const scree_surface *surf
     double middle[3], foot[3], size[3], along_plane[3] = {-n[1], n[0], 0}, across[3], corner[4][3];
     scree_subtract(high, low, size);
     scree_along(low, 0.5, size, middle);
-    double half = 0.6 * sqrt(scree_dot(size, size));
     scree_along(middle, surface->offset[0] - scree_dot(n, middle), n, foot);
     if (!(scree_normalise(along_plane) > 0)) along_plane[0] = 1;
     scree_cross(n, along_plane, across);
+    const double half = half_width(size, along_plane), other = half_width(size, across);
     for (int c = 0; c < 4; c++) {
         scree_along(foot, c == 1 || c == 2 ? half : -half, along_plane, corner[c]);
-        scree_along(corner[c], c >= 2 ? half : -half, across, corner[c]);
+        scree_along(corner[c], c >= 2 ? other : -other, across, corner[c]);
     }
     if (dimension == 3) {
         add_square(triangles, surface, wall, (const double(*)[3])corner);

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define WIDTH      720 /* pt of the SVG; the PNG has PNG_SCALE pixels for each */
+#define WIDTH      720 /* pt of the SVG; the PNG has PNG_SCALE pixels for each, unless others were chosen */
 #define HEIGHT     450
 #define PNG_SCALE  3
 #define COLOURS    7
@@ -387,6 +387,7 @@ static void write_style(FILE *file, const scree_chart *chart)
     const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
     fprintf(file, "set offsets %s, %s, graph 0.03, %s\n%s", side, side, zero ? "0" : "graph 0.03",
             zero ? "set yrange [0:]\n" : "");
+    if (chart->highest_y > 0) fprintf(file, "set yrange [0:%g]\n", chart->highest_y);
     write_x_names(file, chart, find_crowd(chart, legend));
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
@@ -401,9 +402,11 @@ static void write_script(FILE *file, const scree_chart *chart, const char *name)
                    "svg size %d,%d dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'", WIDTH, HEIGHT);
     write_output(file, name, "svg", terminal);
     write_plot(file, chart, name);
+    const int asked = scree_page_chosen_pixels();
+    const double scale = asked > 0 ? asked / (double)WIDTH : PNG_SCALE;
     (void)snprintf(terminal, sizeof terminal,
-                   "pngcairo size %d,%d enhanced font 'DejaVu Sans,10' fontscale %d linewidth %d", WIDTH * PNG_SCALE,
-                   HEIGHT * PNG_SCALE, PNG_SCALE, PNG_SCALE);
+                   "pngcairo size %.0f,%.0f enhanced font 'DejaVu Sans,10' fontscale %.4g linewidth %.4g",
+                   WIDTH * scale, HEIGHT * scale, scale, scale);
     write_output(file, name, "png", terminal);
     fputs("replot\nset output\n", file);
 }

@@ -25,6 +25,7 @@ typedef struct scree_chart {
     const scree_chart_line *line;
     size_t line_count;
     bool log_x, log_y;
+    double highest_y; ///< end of an axis that begins at zero, e.g. 100 of shares in percent; 0: what the values need
     const char *const *x_name; ///< NULL, or what stands at x = 1, 2, ... in place of numbers
     size_t x_name_count;
 } scree_chart;

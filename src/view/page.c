@@ -6,10 +6,41 @@
 #include "io/run_directory.h"
 #include "view/png_file.h"
 
+#include <scree/scree.h>
+
 #include <cairo-svg.h>
 #include <limits.h>
 #include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
+
+static atomic_int chosen; ///< long side of PNG files; 0: the standard one
+
+int scree_page_chosen_pixels(void)
+{
+    return atomic_load_explicit(&chosen, memory_order_relaxed);
+}
+
+scree_status scree_figure_pixels_choose(const char *text, scree_error *error)
+{
+    enum { SMALLEST = 200, LARGEST = 20000 };
+    char *end = NULL;
+    const long pixels = text ? strtol(text, &end, 10) : 0;
+    if (text && (end == text || *end || pixels < SMALLEST || pixels > LARGEST))
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "long side of PNG figures '%s': expected a whole number of pixels, %d to %d", text,
+                               SMALLEST, LARGEST);
+    atomic_store_explicit(&chosen, (int)pixels, memory_order_relaxed);
+    return SCREE_OK;
+}
+
+/// Long side of the PNG of a page. A page that has pixels of its own (a frame of a movie) keeps them.
+static int page_pixels(const scree_page *page)
+{
+    const int asked = scree_page_chosen_pixels();
+    return page->pixels > 0 ? page->pixels : asked > 0 ? asked : SCREE_PAGE_PIXELS;
+}
 
 static cairo_status_t append(void *file, const unsigned char *data, unsigned int length)
 {
@@ -31,7 +62,7 @@ static cairo_status_t draw_svg(FILE *file, const scree_page *page)
 
 static cairo_status_t draw_png(FILE *file, const scree_page *page)
 {
-    double scale = (page->pixels > 0 ? page->pixels : SCREE_PAGE_PIXELS) / fmax(page->width, page->height);
+    double scale = page_pixels(page) / fmax(page->width, page->height);
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)lround(page->width * scale),
                                                           (int)lround(page->height * scale));
     cairo_t *cairo = cairo_create(surface);
@@ -47,10 +78,11 @@ static cairo_status_t draw_png(FILE *file, const scree_page *page)
 /// Bytes that Cairo (1.16) may take for a page whose largest shape has `marks` discs: the pixels of the PNG, fonts, and
 /// the edges of that shape, which are cut into pieces of some pixels. Discs that fill a page have a rim of sqrt(marks)
 /// pages; measured were 0.5 MB of that and 5 kB a disc.
-static size_t page_bytes(size_t marks)
+static size_t page_bytes(const scree_page *page)
 {
-    enum { PIXELS = 4 * SCREE_PAGE_PIXELS * SCREE_PAGE_PIXELS, LIBRARY = 8 << 20, RIM = 700 << 10, MARK = 6 << 10 };
-    return PIXELS + LIBRARY + (size_t)(RIM * sqrt((double)marks)) + MARK * marks;
+    enum { PIXEL = 4, LIBRARY = 8 << 20, RIM = 700 << 10, MARK = 6 << 10 };
+    const size_t side = (size_t)page_pixels(page), marks = page->marks;
+    return PIXEL * side * side + LIBRARY + (size_t)(RIM * sqrt((double)marks)) + MARK * marks;
 }
 
 typedef cairo_status_t render(FILE *file, const scree_page *page);
@@ -63,7 +95,7 @@ static scree_status write_one(const char *path, const char *extension, render *r
     if (snprintf(name, sizeof name, "%s.%s", path, extension) >= (int)sizeof name)
         return scree_error_set(error, SCREE_ERROR_IO, "the path of the figure '%s' is too long", path);
     // Where it cannot have memory for edges, Cairo jumps to a place on the stack that it has left.
-    scree_status status = scree_memory_check(page_bytes(page->marks), error);
+    scree_status status = scree_memory_check(page_bytes(page), error);
     if (!status) status = scree_replace_begin(name, &file, error);
     if (status) return status;
     cairo_status_t cairo_status = renderer(file, page);

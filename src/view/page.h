@@ -8,7 +8,10 @@
 #include <cairo.h>
 #include <stdbool.h>
 
-#define SCREE_PAGE_PIXELS 2000 ///< long side of the PNG
+#define SCREE_PAGE_PIXELS 2000 ///< long side of the PNG, unless another one has been chosen
+
+/// What scree_figure_pixels_choose has set; 0: nothing.
+int scree_page_chosen_pixels(void);
 
 typedef void scree_page_draw(cairo_t *cairo, void *user);
 

@@ -158,6 +158,7 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
                                .y_label = label,
                                .line = line,
                                .line_count = 2,
+                               .highest_y = 100,
                                .log_x = asked.count > 0 && asked.x[asked.count - 1] > 20 * asked.x[0]};
     if (!status) status = scree_chart_draw(job->path, &chart, error);
     curve_release(&asked);

@@ -37,7 +37,6 @@ static void draw_grid(cairo_t *cairo, const drawing *d)
         scree_page_colour(cairo, grid);
         cairo_arc(cairo, CENTRE, TOP, radius, 0, 2 * M_PI);
         cairo_stroke(cairo);
-        scree_text_show(cairo, CENTRE + 0.2588 * radius, TOP - 0.9659 * radius - 1, 0.5, ticks.text[k], small);
     }
     for (int degree = 0; degree < 360; degree += 30) {
         const double x = cos(degree * M_PI / 180), y = -sin(degree * M_PI / 180);
@@ -47,6 +46,23 @@ static void draw_grid(cairo_t *cairo, const drawing *d)
         cairo_stroke(cairo);
         (void)snprintf(text, sizeof text, "%d°", d->rose->width ? elevation_of(degree) : degree);
         scree_text_show(cairo, CENTRE + (RADIUS + 16) * x, TOP + (RADIUS + 16) * y + 3, 0.5, text, small);
+    }
+}
+
+/// Numbers of the rings, above all else.
+static void draw_numbers(cairo_t *cairo, const drawing *d)
+{
+    const scree_ticks ticks = scree_ticks_make(0, d->largest);
+    const scree_text_style small = {.size = 8.5, .colour = ink};
+    for (int k = 0; k < ticks.count; k++) {
+        const double radius = RADIUS * ticks.value[k] / d->largest;
+        if (!(radius > 1)) continue;
+        const double x = CENTRE + 0.2588 * radius, y = TOP - 0.9659 * radius;
+        const double width = scree_text_width(cairo, ticks.text[k], small) + 4;
+        cairo_set_source_rgba(cairo, 1, 1, 1, 0.8);
+        cairo_rectangle(cairo, x - width / 2, y - 6, width, 11);
+        cairo_fill(cairo);
+        scree_text_show(cairo, x, y + 3, 0.5, ticks.text[k], small);
     }
 }
 
@@ -98,6 +114,7 @@ static void draw_page(cairo_t *cairo, void *user)
     draw_grid(cairo, d);
     draw_petals(cairo, d);
     draw_line(cairo, d);
+    draw_numbers(cairo, d);
     scree_page_colour(cairo, petal);
     cairo_rectangle(cairo, 362, 62, 9, 9);
     cairo_fill(cairo);

@@ -396,7 +396,8 @@ scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, 
         const bool raster = many_marks(&view) > RASTER_MARKS;
         const int pixels = scene->frame ? FRAME_PIXELS : 0;
         status = scree_memory_check(raster ? RASTER_BYTES : 1, error);
-        if (!status && raster) make_raster(&view, pixels > 0 ? pixels : SCREE_PAGE_PIXELS);
+        if (!status && raster)
+            make_raster(&view, pixels > 0 ? pixels : fmax(SCREE_PAGE_PIXELS, scree_page_chosen_pixels()));
         const scree_page page = {view.page_width, view.page_height, largest_shape(&view), draw_page, &view, pixels};
         if (!status) status = scree_page_write(path, &page, error);
         if (view.raster) cairo_surface_destroy(view.raster);

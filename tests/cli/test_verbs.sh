@@ -122,6 +122,14 @@ rm -r out/figures
 expect 0 'figures' "$scree" plot out --only packing-end,stress-ratio
 same "$output" $'out/figures/stress-ratio.svg\nout/figures/packing-end.svg'
 same "$(ls out/figures | tr '\n' ' ')" 'packing-end.png packing-end.svg stress-ratio.csv stress-ratio.gp stress-ratio.png stress-ratio.svg '
+# The long side of a PNG is in its bytes 17 to 24.
+sides() { od -An -tu1 -j16 -N8 "$1" | awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4, $5 * 16777216 + $6 * 65536 + $7 * 256 + $8 }'; }
+expect 0 'figures' env SCREE_PIXELS=640 "$scree" plot out --only packing-end,stress-ratio
+same "$(sides out/figures/stress-ratio.png)" "640 400" 'sides of a chart'
+same "$(sides out/figures/packing-end.png | tr ' ' '\n' | sort -n | tail -n 1)" 640 'long side of a scene'
+for wrong in 199 20001 1e3 much; do
+    expect 2 "SCREE_PIXELS: .*'$wrong': expected a whole number of pixels, 200 to 20000" env SCREE_PIXELS=$wrong "$scree" list
+done
 expect 2 "^scree plot: stress-ration: .*\(accepted: stress-ratio\)$" "$scree" plot out --only packing-end,stress-ration
 expect 2 '^scree plot: --only: does not go with --list' "$scree" plot out --only stress --list
 expect 2 'shear-ratio: .*no figure of this name' "$scree" plot out --only shear-ratio # of periodic cells
