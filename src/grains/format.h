@@ -53,6 +53,8 @@ typedef struct grain_rows {
     double shift[GRAIN_CELLS];  ///< SI, added
 } grain_rows;
 
+/// A column that means nothing here: it is left out, and named in what is told of the file.
+void grain_rows_leave_out(grain_rows *rows, size_t k, const char *name);
 /// Makes room for what the cells hold, `expected` rows to begin with. Errors: memory.
 scree_status grain_rows_begin(grain_rows *rows, size_t expected, scree_error *error) SCREE_MUST_USE;
 /// Takes the line of `text`. Errors: cells missing, no numbers, too many kinds; memory.

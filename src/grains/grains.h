@@ -42,6 +42,7 @@ typedef struct scree_grains {
     bool sided;          ///< the file says in which directions the box repeats itself
     unsigned periodic;   ///< these, bits 0, 1, 2
     const char *format;  ///< name of the format
+    char left_out[120];  ///< columns of the file that mean nothing here, by name; "": all are read
 } scree_grains;
 
 typedef struct scree_grains_options {

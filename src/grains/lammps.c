@@ -1,5 +1,5 @@
 /// Dumps and data files of LAMMPS (docs.lammps.org: dump custom; read_data, atom_style sphere). What a dump has beside
-/// the columns below is left out. Coordinates: x, xu (unwrapped), xs (scaled by the box).
+/// the columns below is left out, and named. Coordinates: x, xu (unwrapped), xs (scaled by the box).
 #include "grains/format.h"
 
 #include <math.h>
@@ -51,6 +51,7 @@ static void read_column(const char *name, const scree_grains_options *options, c
         }
     for (size_t other = 0; other < k; other++)
         if (rows->to[other] == rows->to[k]) rows->to[k] = GRAIN_IGNORED; // x and xu: the first
+    if (rows->to[k] == GRAIN_IGNORED) grain_rows_leave_out(rows, k, name);
 }
 
 /// "xy xz yz pp pp ff": whether there are tilts, and in which directions the box repeats itself.

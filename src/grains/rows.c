@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,15 @@ double grain_unit(int column, const scree_grains_options *options)
     if (column <= SCREE_GRAIN_RADIUS) return options->length;
     if (column <= SCREE_GRAIN_VZ) return options->length / options->time;
     return column <= SCREE_GRAIN_WZ ? 1 / options->time : 1;
+}
+
+void grain_rows_leave_out(grain_rows *rows, size_t k, const char *name)
+{
+    char *list = rows->grains->left_out;
+    const size_t length = strlen(list), room = sizeof rows->grains->left_out - length;
+    rows->to[k] = GRAIN_IGNORED;
+    if (snprintf(list + length, room, "%s%s", length ? ", " : "", name) >= (int)room)
+        (void)snprintf(list + sizeof rows->grains->left_out - sizeof ", ...", sizeof ", ...", ", ...");
 }
 
 static scree_status grow(grain_rows *rows, size_t capacity, scree_error *error)

@@ -30,6 +30,7 @@ static scree_status read(grain_text *text, const scree_grains_options *options, 
         for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
             if (strcmp(columns[c].name, name) == 0) rows.to[k] = columns[c].to;
         rows.factor[k] = grain_unit(rows.to[k], options);
+        if (rows.to[k] == GRAIN_IGNORED) grain_rows_leave_out(&rows, k, name);
     }
     status = grain_rows_begin(&rows, 0, error);
     while (!status && grain_text_line(text)) status = grain_rows_add(&rows, text, error);

@@ -389,6 +389,7 @@ static scree_status read_with(const char *path, const measure_plan *plan, double
         status = read_contacts(plan, &g, frame, sample, error);
         if (!status) sum_resultants(sample);
         sample->time = g.time;
+        if (g.left_out[0]) measure_say(plan, "%s: columns left out: %s", path, g.left_out);
         if (status) scree_average_sample_destroy(sample);
     }
     scree_grains_destroy(&g);

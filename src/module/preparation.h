@@ -53,6 +53,8 @@ typedef struct scree_preparation {
     /// Fills what the module itself remembers in the state, when the rows are filled. NULL: nothing.
     scree_status (*remember)(const scree_model *model, const struct scree_config_stage *stage,
                              const struct scree_packing *packing, scree_state *state, scree_error *error);
+    /// What a reader of the log should know of what has been placed; "": nothing. NULL: nothing.
+    const char *(*remark)(const struct scree_config_stage *stage);
     /// Velocities at the start, when the rows are filled. NULL: at rest.
     void (*set_moving)(const scree_model *model, const struct scree_config_stage *stage, scree_state *state);
 } scree_preparation;

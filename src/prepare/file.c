@@ -31,6 +31,7 @@ typedef struct config {
     // when the file has been looked at
     size_t count;
     const char *material[SCREE_GRAIN_KINDS]; ///< of the case, of each kind of the file
+    char remark[150];                        ///< what it does not read
 } config;
 
 static const scree_choice formats[] = {
@@ -313,6 +314,7 @@ static void rules(scree_reader *reader, const scree_config *of)
     }
     const judged j = {reader, of, own, &g};
     own->count = g.count;
+    if (g.left_out[0]) (void)snprintf(own->remark, sizeof own->remark, "columns left out: %s", g.left_out);
     if (scree_given_rules(reader, of, g.count)) {
         check_dimension(&j);
         check_box(&j);
@@ -448,6 +450,11 @@ static double impact_speed(const scree_model *model, const scree_config_stage *s
     return fmax(2 * speed, fall);
 }
 
+static const char *remark(const scree_config_stage *stage)
+{
+    return own_config(stage)->remark;
+}
+
 static const scree_preparation preparation = {
     .periodic = true,
     .approaching = true,
@@ -459,6 +466,7 @@ static const scree_preparation preparation = {
     .impact_speed = impact_speed,
     .place = place,
     .remember = remember,
+    .remark = remark,
 };
 
 const scree_module scree_module_file = {

@@ -37,6 +37,14 @@ static const scree_key keys[] = {
                       "reach."),
 };
 
+static void give_reason(scree_simulation *s)
+{
+    const scree_preparation *method = scree_modules[scree_config_prepared(scree_stage_config(s))->method]->preparation;
+    const char *remark = method->remark ? method->remark(scree_stage_config(s)) : "";
+    (void)snprintf(s->reason, sizeof s->reason, "%zu particles placed%s%s", s->state.count, remark[0] ? "; " : "",
+                   remark);
+}
+
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     scree_state prepared;
@@ -47,7 +55,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_state_destroy(&s->state);
     s->state = prepared;
     scree_neighbours_invalidate(&s->work);
-    (void)snprintf(s->reason, sizeof s->reason, "%zu particles placed", s->state.count);
+    give_reason(s);
     return SCREE_OK;
 }
 

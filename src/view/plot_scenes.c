@@ -1,4 +1,5 @@
-/// The scenes of a run: single snapshots, coloured by what has happened since the start of loading.
+/// The scenes of a run: single snapshots, coloured by what has happened since the start of loading, or
+/// since that of the run where nothing is loaded.
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -6,21 +7,22 @@
 #include "view/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT, FIELD_BIRTH };
 enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
 
 static const struct field_entry {
-    const char *label;
+    const char *meaning, *unit;
     scree_colour_map map;
+    bool compares; ///< since the start
 } fields[] = {
-    [FIELD_ROTATION] = {"rotation since the start of loading (degrees), counter-clockwise positive",
-                        SCREE_COLOUR_DIVERGING},
-    [FIELD_SPIN] = {"spin (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING},
-    [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude (rad/s)", SCREE_COLOUR_SEQUENTIAL},
-    [FIELD_SPEED] = {"speed (mm/s)", SCREE_COLOUR_SEQUENTIAL},
-    [FIELD_DISPLACEMENT] = {"displacement since the start of loading (mm)", SCREE_COLOUR_SEQUENTIAL},
-    [FIELD_BIRTH] = {"time of birth (s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_ROTATION] = {"rotation", " (degrees), counter-clockwise positive", SCREE_COLOUR_DIVERGING, true},
+    [FIELD_SPIN] = {"spin", " (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING},
+    [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude", " (rad/s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_SPEED] = {"speed", " (mm/s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_DISPLACEMENT] = {"displacement", " (mm)", SCREE_COLOUR_SEQUENTIAL, true},
+    [FIELD_BIRTH] = {"time of birth", " (s)", SCREE_COLOUR_SEQUENTIAL},
 };
 
 typedef struct scene_row {
@@ -33,11 +35,11 @@ typedef struct scene_row {
 } scene_row;
 
 static const scene_row rows[] = {
-    {{"packing-start", "particles at the start of loading", SCREE_ON_REQUEST},
-     "Packing at the start of loading",
+    {{"packing-start", "particles at the start of loading, or of the run", SCREE_ON_REQUEST},
+     "Packing at the start",
      SCREE_AT_START,
      .boundary = true},
-    {{"packing-end", "particles at the end, coloured by their rotation since the start of loading", SCREE_USUAL},
+    {{"packing-end", "particles at the end, coloured by their rotation since the start", SCREE_USUAL},
      "Packing at the end: rotations",
      SCREE_AT_END,
      .field = FIELD_ROTATION,
@@ -62,16 +64,16 @@ static const scene_row rows[] = {
      "Pile: time of birth",
      SCREE_AT_END,
      .field = FIELD_BIRTH},
-    {{"packing-start", "particles at the start of loading", SCREE_ON_REQUEST},
-     "Packing at the start of loading",
+    {{"packing-start", "particles at the start of loading, or of the run", SCREE_ON_REQUEST},
+     "Packing at the start",
      SCREE_AT_START,
      .view = VIEW_SPACE},
-    {{"packing-end", "particles at the end, coloured by their displacement since the start of loading", SCREE_USUAL},
+    {{"packing-end", "particles at the end, coloured by their displacement since the start", SCREE_USUAL},
      "Packing at the end: displacements",
      SCREE_AT_END,
      .field = FIELD_DISPLACEMENT,
      .view = VIEW_SPACE},
-    {{"section-end", "section at the end, coloured by displacements since the start of loading", SCREE_WITHOUT_LOADING},
+    {{"section-end", "section at the end, coloured by displacements since the start", SCREE_WITHOUT_LOADING},
      "Section at the end: displacements",
      SCREE_AT_END,
      .field = FIELD_DISPLACEMENT,
@@ -144,17 +146,27 @@ scree_status scree_plot_space(const char *path, const scree_snapshot *now, scree
     return status;
 }
 
+static const char *since(const scree_plot_run *run, int field)
+{
+    if (!fields[field].compares) return "";
+    return run->row_count > 0 ? " since the start of loading" : " since the start";
+}
+
 static scree_status draw_scene(const scree_plot_run *run, const scree_figure_job *job, const scree_snapshot *start,
                                const scree_snapshot *now, scree_error *error)
 {
     const scene_row *entry = (const scene_row *)job->figure;
     double *field = NULL;
+    char label[120] = "";
     scree_status status = SCREE_OK;
     if (entry->field != FIELD_NONE) status = scree_allocate(&field, now->count, sizeof *field, error);
     for (size_t k = 0; field && k < now->count; k++) field[k] = field_value(entry->field, start, now, k);
+    if (field)
+        (void)snprintf(label, sizeof label, "%s%s%s", fields[entry->field].meaning, since(run, entry->field),
+                       fields[entry->field].unit);
     scree_scene scene = {.title = entry->title,
                          .field = field,
-                         .field_name = fields[entry->field].label,
+                         .field_name = label,
                          .map = fields[entry->field].map,
                          .force_network = entry->force_network,
                          .boundary = entry->boundary,
@@ -192,12 +204,6 @@ scree_status scree_plot_keep_standing(const scree_plot_run *run, size_t which, s
     return SCREE_OK;
 }
 
-/// Whether the row compares its snapshot with that of the start.
-static bool compares(const scene_row *row)
-{
-    return row->field == FIELD_ROTATION || row->field == FIELD_DISPLACEMENT;
-}
-
 static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     const scene_row *row = (const scene_row *)job->figure;
@@ -205,7 +211,7 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     size_t which;
     scree_status status = scree_plot_find_snapshot(run, row->when, &which, error);
     // Bodies may have come since the start.
-    if (!status && compares(row))
+    if (!status && fields[row->field].compares)
         status = scree_plot_read_two(run, scree_plot_end_snapshot(run, false), which, &start, &now, error);
     else if (!status)
         status = scree_snapshot_read(run->directory, which, &now, error);

@@ -77,6 +77,7 @@ static void dumps_of_lammps(void **unused)
     expect(&g, SCREE_GRAIN_RADIUS, 0.2, 0.1);
     expect(&g, SCREE_GRAIN_WZ, 3, 2);
     assert_true(g.bounded && g.bounds[0][0] == -1 && g.bounds[2][1] == 5);
+    assert_string_equal(g.left_out, "fx");
     scree_grains_destroy(&g);
     const scree_grains_options first = {.length = 1, .time = 1, .frame = 0};
     g = read_text(dump, &first, "lammps_dump");
