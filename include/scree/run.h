@@ -44,6 +44,22 @@ SCREE_API scree_status scree_run(const scree_case *c, const scree_run_options *o
 /// SCREE_ERROR_INPUT while another process writes there.
 SCREE_API scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error);
 
+// ---- several processes (mpirun), of a library that is built with MPI ----------------------------------------------
+
+/// This process takes part with the others that its launcher has started: scree_run and scree_restart are called by all
+/// of them, alike, and compute one run, with the bits of one process; process 0 writes it. Called once, before anything
+/// else. *count: processes that take part, 1 in a library without MPI. Errors: SCREE_ERROR_IO, MPI does not start.
+SCREE_API scree_status scree_processes_join(int *count, scree_error *error);
+
+/// Number of this process, from 0.
+SCREE_API int scree_processes_number(void);
+
+/// If one of the processes has failed all get its status and its error, those of the lowest number. All call it.
+SCREE_API scree_status scree_processes_agree(scree_status status, scree_error *error);
+
+/// At the end, by all.
+SCREE_API void scree_processes_leave(void);
+
 /// One thing in the folder of a run (`scree check DIR`).
 typedef struct scree_folder_item {
     const char *name;  ///< "series.csv", "checkpoint 5", "snapshot 12"

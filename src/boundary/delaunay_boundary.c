@@ -115,4 +115,5 @@ const scree_module scree_module_delaunay_boundary = {
     .passes = passes,
     .pass_count = 1,
     .columns = SCREE_RESULTS(columns, sample),
+    .spreads = true,
 };

@@ -22,4 +22,5 @@ const scree_module scree_module_none = {
     .meaning = "nothing stands around the bodies",
     .choice_of = CHOICE_OF(IS("stages.boundary")),
     .boundary = &face,
+    .spreads = true,
 };

@@ -99,4 +99,5 @@ const scree_module scree_module_periodic_cell = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
 };

@@ -127,4 +127,5 @@ const scree_module scree_module_periodic = {
     .name = "periodic",
     .meaning = "a cell that repeats itself in all directions",
     .boundary = &face,
+    .spreads = true,
 };

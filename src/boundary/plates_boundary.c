@@ -68,4 +68,5 @@ const scree_module scree_module_plates_boundary = {
     .choice_of = CHOICE_OF(IS("stages.boundary"),
                            IS("boundary.lateral", .meaning = "rigid side plates that a servo holds at the pressure")),
     .boundary = &face,
+    .spreads = true,
 };

@@ -359,4 +359,5 @@ const scree_module scree_module_pressure = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .bound = bound,
+    .spreads = true,
 };

@@ -22,4 +22,5 @@ const scree_module scree_module_walls = {
     .meaning = "no plates: only the `walls` of the case",
     .choice_of = CHOICE_OF(IS("stages.boundary")),
     .boundary = &face,
+    .spreads = true,
 };

@@ -4,6 +4,7 @@
 
 #include "cli/terminal.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -25,22 +26,55 @@ static long variable(const char *name, long otherwise)
     return text && (end == text || *end) ? otherwise : value;
 }
 
-bool scree_launch_is_single(const char *verb)
+/// All that the launcher has started compute together.
+static bool is_joined(long size)
+{
+    int count;
+    scree_error error;
+    if (!scree_processes_join(&count, &error)) return count == size;
+    (void)scree_terminal_error(NULL, &error);
+    return false;
+}
+
+static bool refuse(const scree_verb *verb, const launcher *by, long size)
+{
+    if (variable(by->rank, 0) > 0) {
+        // A process that ends with an error makes mpirun end the others: number 0 has to have spoken before.
+        (void)sleep(1);
+        return false;
+    }
+    fprintf(stderr,
+            "scree %s: started %ld times by a launcher of MPI (%s = %ld), but %s computes in one process: each of the "
+            "%ld would run the whole case. Start it once, with --threads N for N cores; for many runs use `scree "
+            "sweep`. To start separate runs by mpirun all the same, unset %s.\n",
+            verb->name, size, by->size, size, verb->together ? "this program, built without MPI," : "it", size,
+            by->size);
+    return false;
+}
+
+bool scree_launch_allows(const scree_verb *verb)
 {
     for (size_t k = 0; k < sizeof launchers / sizeof *launchers; k++) {
         const long size = variable(launchers[k].size, 1);
-        if (size <= 1) continue;
-        if (variable(launchers[k].rank, 0) > 0) {
-            // A process that ends with an error makes mpirun end the others: number 0 has to have spoken before.
-            (void)sleep(1);
-            return false;
-        }
-        fprintf(stderr,
-                "scree %s: started %ld times by a launcher of MPI (%s = %ld), but this program computes in one "
-                "process: each of the %ld would run the whole case. Start it once, with --threads N for N cores; for "
-                "many runs use `scree sweep`. To start separate runs by mpirun all the same, unset %s.\n",
-                verb, size, launchers[k].size, size, size, launchers[k].size);
-        return false;
+        if (size > 1) return (verb->together && is_joined(size)) || refuse(verb, &launchers[k], size);
     }
     return true;
+}
+
+int scree_launch_hush(void)
+{
+    if (scree_processes_number() == 0) return -1;
+    (void)fflush(stderr);
+    const int kept = dup(STDERR_FILENO), nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) (void)dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) (void)close(nowhere);
+    return kept;
+}
+
+void scree_launch_speak(int kept)
+{
+    if (kept < 0) return;
+    (void)fflush(stderr);
+    (void)dup2(kept, STDERR_FILENO);
+    (void)close(kept);
 }

@@ -2,10 +2,15 @@
 #ifndef SCREE_CLI_LAUNCH_H
 #define SCREE_CLI_LAUNCH_H
 
-#include <stdbool.h>
+#include "cli/verbs.h"
 
-/// False where this is one of several processes of a launcher: each would compute the whole case into the same folder.
-/// Process 0 says so on standard error, the others are silent. verb: what was asked for.
-bool scree_launch_is_single(const char *verb);
+/// True in one process, and in several of a launcher that compute one run together: the verb can, and the program is
+/// built with MPI. Else each would compute the whole case into the same folder: process 0 says so on standard error,
+/// the others are silent.
+bool scree_launch_allows(const scree_verb *verb);
+
+/// What all processes would say, process 0 says: the others are silent until scree_launch_speak with what this returns.
+int scree_launch_hush(void);
+void scree_launch_speak(int kept);
 
 #endif

@@ -55,7 +55,7 @@ static scree_status call_verb(const scree_verb *verb, int count, char *const *wo
         status = scree_terminal_error(verb->name, &error);
     else if (scree_command_has(&command, "help"))
         scree_help_write_verb(stdout, verb);
-    else if (!verb->alone || scree_launch_is_single(verb->name))
+    else if (!verb->alone || scree_launch_allows(verb))
         status = verb->function(&command);
     else
         status = SCREE_ERROR_INPUT;
@@ -90,5 +90,6 @@ int main(int argc, char **argv)
         printf("scree %s\n", scree_version());
     else
         status = find_verb(argc - 1, argv + 1);
+    scree_processes_leave();
     return (int)finish_output(status);
 }

@@ -1,5 +1,6 @@
 /// scree run CASE, scree run --restart DIR
 #include "cli/case_argument.h"
+#include "cli/launch.h"
 #include "cli/progress.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
@@ -31,9 +32,27 @@ static scree_status check_combination(const scree_command *command, scree_error 
 /// Says on standard error how the run ended and what can be done with it.
 static scree_status report(scree_status status, const char *folder, bool quiet, const scree_error *error)
 {
+    if (scree_processes_number() > 0) return status;
     if (status == SCREE_OK && !quiet) fprintf(stderr, "results in %s; `scree get %s` prints them\n", folder, folder);
     if (status == SCREE_OK) return SCREE_OK;
     return scree_terminal_error("run", error);
+}
+
+/// Reads the case; one process says what is wrong with it.
+static scree_status read_case(const scree_command *command, scree_case **c)
+{
+    scree_error error = {0};
+    const int kept = scree_launch_hush();
+    scree_status status = scree_case_argument_read(command, command->argument[0], c);
+    scree_launch_speak(kept);
+    if (status)
+        (void)snprintf(error.message, sizeof error.message, "process %d cannot read the case: is it where all find it?",
+                       scree_processes_number());
+    error.status = status;
+    const bool fine = status == SCREE_OK;
+    status = scree_processes_agree(status, &error);
+    if (status && fine && scree_processes_number() == 0) (void)scree_terminal_error("run", &error);
+    return status;
 }
 
 scree_status scree_verb_run(const scree_command *command)
@@ -49,16 +68,20 @@ scree_status scree_verb_run(const scree_command *command)
         .message = scree_progress_message,
         .user = &display,
     };
+    const int kept = scree_launch_hush();
     scree_status status = check_combination(command, &error);
     if (!status) status = scree_command_number(command, "threads", 1, MOST_THREADS, &threads, &error);
-    if (status) return scree_terminal_error("run", &error);
+    if (status) status = scree_terminal_error("run", &error);
+    scree_launch_speak(kept);
+    if (status) return status;
     options.threads = (int)threads;
+    if (scree_processes_number() > 0) options.progress = NULL;
     const char *restart = scree_command_value(command, "restart"), *output = scree_command_value(command, "output");
     options.from = scree_command_value(command, "from");
     options.after = scree_command_value(command, "after");
     options.output = restart ? restart : output ? output : "out";
     scree_case *c = NULL;
-    if (!restart) status = scree_case_argument_read(command, command->argument[0], &c);
+    if (!restart) status = read_case(command, &c);
     if (status) return status;
     scree_stop_catch();
     scree_progress_begin(&display, scree_command_has(command, "quiet"));

@@ -244,6 +244,7 @@ static const scree_verb run_verbs[] = {
                     {"scree run longer.yaml --after out -o longer", "the same case with stages added or changed"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
         .alone = true,
+        .together = true,
         .function = scree_verb_run,
     },
     {

@@ -55,6 +55,7 @@ typedef struct scree_verb {
     scree_verb_option option[SCREE_VERB_ROWS];
     scree_verb_example example[SCREE_VERB_ROWS];
     bool alone;    ///< computes: one process, not several that a launcher of MPI started
+    bool together; ///< `alone`, but several processes can compute one run where the program is built with MPI
     int status[6]; ///< exit statuses beside 0, ends with 0
     scree_status (*function)(const struct scree_command *command);
 } scree_verb;

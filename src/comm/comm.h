@@ -1,5 +1,7 @@
 /// What goes between the parts of a sample, as messages: between a periodic cell and its ghosts, and between processes.
-/// serial.c answers it within one process, by copies; what answers it among several has the same functions.
+/// serial.c exchanges messages within one process, by copies; parts.c those with other processes. What these two and
+/// the numbers out of all parts need of a transport is in alone.c (one process) or mpi.c (several, the preset mpi), the
+/// parts themselves in zoltan.c.
 ///
 /// Ghosts are rows of bodies behind the `count` own ones. What is sent of a body, and what a ghost gives back, is
 /// declared with the fields (module/field.h, `ghosts`); a new field of a module needs no line here.
@@ -23,8 +25,31 @@ void scree_comm_exchange(scree_state *state, scree_work *work);
 /// Adds what the ghosts have collected to their bodies, and leaves the rows of the ghosts clear.
 void scree_comm_add_back(scree_state *state, scree_work *work);
 
-// ---- one number out of all parts: what each has found among its own bodies and contacts
-// --------------------------------
+// ---- the processes that take part -------------------------------------------------------------------------------
+
+/// This process takes part with the others that its launcher has started, if the program is built with MPI; all of
+/// them call it, once, before anything else here. Without it a process is alone. Errors: the launcher has none of MPI.
+scree_status scree_comm_join(scree_error *error) SCREE_MUST_USE;
+/// All of them call it at the end.
+void scree_comm_leave(void);
+
+enum { SCREE_PROCESSES = 4096 }; ///< at most
+
+int scree_comm_size(void); ///< processes that take part
+int scree_comm_rank(void); ///< number of this one, 0 .. size - 1
+
+int scree_comm_neighbours(void); ///< processes on this machine, this one too
+
+/// All have come this far; if one of them has failed, all return its status and have its error, that of the lowest
+/// number. All of them call it.
+scree_status scree_comm_agree(scree_status status, scree_error *error) SCREE_MUST_USE;
+
+/// Ends all processes at once with this status, when one has failed where the others cannot know.
+void scree_comm_stop(scree_status status);
+
+// ---- one number out of all parts: what each has found among its own bodies and contacts -------------------------
+// Where `state` is a part of a sample; where it is the whole (not state->part), the answer is that of the state alone.
+// NULL: of all processes.
 
 /// scree_integer_sum_next over the terms of all processes: between the passes their parts are joined, so that all have
 /// the same quantum and the same total. All of them call it, as often.
@@ -42,5 +67,27 @@ void scree_comm_maximum(const scree_state *state, double *values, size_t count);
 
 /// Replaces each value by the sum over all processes.
 void scree_comm_add(const scree_state *state, int64_t *values, size_t count);
+
+// ---- bytes between processes, for parts.c; all of them call each function, and ask for what the others send ------
+
+/// theirs[r * each + k]: what process r has in mine[own number * each + k].
+void scree_comm_trade(const uint64_t *mine, uint64_t *theirs, size_t each);
+
+/// Elements of `size` bytes: send[r] of them to process r, those of all one after the other in `out`; receive[r] from
+/// it, in the same way into `in`. What would go to the own process is left out. Returns the bytes that were sent.
+size_t scree_comm_deliver(const void *out, const size_t *send, void *in, const size_t *receive, size_t size);
+
+/// `count` elements of `size` bytes of each process, by the numbers of processes, into `all` of each; counts[r]: of
+/// process r.
+void scree_comm_gather(const void *mine, void *all, const size_t *counts, size_t size);
+
+// ---- parts of space ----------------------------------------------------------------------------------------------
+
+/// Cuts space anew, so that each part holds about as many of all places [m]. All of them call it, each with its own.
+/// Errors: memory, or what the library says.
+scree_status scree_comm_cut(const scree_vector *place, size_t count, int dimension, scree_error *error) SCREE_MUST_USE;
+
+/// The process in whose part the place lies, after the last cut.
+int scree_comm_part_of(const scree_vector place);
 
 #endif

@@ -44,7 +44,8 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
 {
     scree_law_bounds bounds = contact_bounds_get(model, state);
     const size_t held = scree_persistent(state)->count;
-    double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count, held));
+    double room =
+        ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, scree_state_total(state), held));
     return (contact_job){
         .model = model,
         .state = state,
@@ -167,21 +168,37 @@ static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *sc
 }
 
 /// The totals of all processes: each has found those of its own contacts. What has been counted is an integer.
-static void join_totals(const scree_state *state, contact_totals *totals)
+static void join_totals(const scree_state *state, bool walls, contact_totals *totals)
 {
-    double flags[2] = {totals->settle, !totals->in_range};
-    scree_comm_maximum(state, flags, 2);
-    totals->settle = flags[0] > 0;
-    totals->in_range = !(flags[1] > 0);
-    scree_comm_maximum(state, &totals->largest_overlap, 1);
-    scree_comm_maximum(state, &totals->largest_deformation, 1);
-    scree_comm_maximum(state, &totals->largest_gap, 1);
-    uint64_t *const energies[] = {&totals->damping, &totals->friction, &totals->stiffness};
-    for (int k = 0; k < 3; k++) scree_comm_add(state, (int64_t *)energies[k], 1);
-    scree_comm_add(state, (int64_t *)totals->wall_force, SCREE_WALL_COUNT);
-    scree_comm_add(state, (int64_t *)totals->wall_shear, 3 * SCREE_WALL_COUNT);
-    scree_comm_add(state, (int64_t *)totals->surface_force, 3 * SCREE_SURFACES);
-    scree_comm_add(state, (int64_t *)totals->surface_torque, 3 * SCREE_SURFACES);
+    if (!state->part) return;
+    double most[] = {totals->settle, !totals->in_range, totals->largest_overlap, totals->largest_deformation,
+                     totals->largest_gap};
+    scree_comm_maximum(state, most, sizeof most / sizeof *most);
+    totals->settle = most[0] > 0;
+    totals->in_range = !(most[1] > 0);
+    totals->largest_overlap = most[2];
+    totals->largest_deformation = most[3];
+    totals->largest_gap = most[4];
+    struct {
+        uint64_t *value;
+        size_t count;
+    } const sums[] = {{&totals->damping, 1},
+                      {&totals->friction, 1},
+                      {&totals->stiffness, 1},
+                      {totals->wall_force, SCREE_WALL_COUNT},
+                      {totals->wall_shear[0], 3 * SCREE_WALL_COUNT},
+                      {totals->surface_force[0], 3 * SCREE_SURFACES},
+                      {totals->surface_torque[0], 3 * SCREE_SURFACES}};
+    // Of the walls of the case nothing is sent where there are none.
+    const size_t kinds = walls ? 7 : 5;
+    int64_t all[3 + 4 * SCREE_WALL_COUNT + 6 * SCREE_SURFACES];
+    size_t count = 0;
+    for (size_t k = 0; k < kinds; count += sums[k++].count)
+        memcpy(all + count, sums[k].value, sums[k].count * sizeof *all);
+    scree_comm_add(state, all, count);
+    count = 0;
+    for (size_t k = 0; k < kinds; count += sums[k++].count)
+        memcpy(sums[k].value, all + count, sums[k].count * sizeof *all);
 }
 
 /// Tangential force on wall `w` [N].
@@ -238,7 +255,7 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
     contact_resting_loads(state, &job->scale, &totals);
-    join_totals(state, &totals);
+    join_totals(state, work->wall_set != NULL, &totals);
     scree_ghosts_add_back(state, work);
     return totals;
 }

@@ -47,6 +47,7 @@ static void sum_faces(const scree_state *state, const scree_ghost_list *list, in
         add_faces(3, state->sum + state->count, list, faces);
     else
         add_faces(2, state->sum + state->count, list, faces);
+    scree_comm_add(state, faces, 9);
 }
 
 typedef struct virial_task {
@@ -120,7 +121,7 @@ void scree_ghosts_add_back(scree_state *state, scree_work *work)
 {
     scree_periodic_cell *cell = scree_cell(state);
     int64_t faces[9] = {0};
-    if (!cell->directions) return;
+    if (!cell->directions && !state->part) return;
     bool whole = scree_periodic_is_whole(state);
     if (whole) sum_faces(state, &work->ghosts, faces);
     scree_comm_add_back(state, work);

@@ -158,4 +158,5 @@ const scree_module scree_module_hertz_brilliantov = {
     .law = &law,
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .spreads = true,
 };

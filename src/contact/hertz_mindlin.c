@@ -186,4 +186,5 @@ const scree_module scree_module_hertz_mindlin = {
     .law = &law,
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .spreads = true,
 };

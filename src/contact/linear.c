@@ -319,4 +319,5 @@ const scree_module scree_module_linear = {
     .law = &law,
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .spreads = true,
 };

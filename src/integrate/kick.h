@@ -7,6 +7,7 @@
 #define SCREE_INTEGRATE_KICK_H
 
 #include "base/fixed.h"
+#include "comm/comm.h"
 #include "integrate/integrate.h"
 #include "state/sleep.h"
 
@@ -186,6 +187,13 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
     for (int k = 0; k < count; k++) {
         surface = fmax(surface, task.speeds[k].surface);
         centre = fmax(centre, task.speeds[k].centre);
+    }
+    // Each for itself: their sum bounds the speed of all surfaces.
+    if (drift && state->part) {
+        double most[] = {surface, centre};
+        scree_comm_maximum(state, most, 2);
+        surface = most[0];
+        centre = most[1];
     }
     centre = sqrt(centre);
     return (scree_speeds){.surface = centre + (state->dimension == 2 ? surface : sqrt(surface)), .centre = centre};

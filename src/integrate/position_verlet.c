@@ -20,4 +20,5 @@ const scree_module scree_module_position_verlet = {
     .meaning = "leapfrog with velocities half a step behind",
     .choice_of = CHOICE_OF(IS("integrator.scheme")),
     .integrator = &integrator,
+    .spreads = true,
 };

@@ -78,4 +78,5 @@ const scree_module scree_module_two_timescales = {
     .keys_count = 1,
     .rules = rules,
     .integrator = &integrator,
+    .spreads = true,
 };

@@ -26,4 +26,5 @@ const scree_module scree_module_velocity_verlet = {
     .meaning = "velocities and positions at the same time",
     .choice_of = CHOICE_OF(IS("integrator.scheme")),
     .integrator = &integrator,
+    .spreads = true,
 };

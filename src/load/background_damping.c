@@ -267,4 +267,5 @@ const scree_module scree_module_background_damping = {
     .work = work,
     .columns = SCREE_RESULTS(columns, sample),
     .told = told,
+    .spreads = true,
 };

@@ -126,4 +126,5 @@ const scree_module scree_module_gravity = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
 };

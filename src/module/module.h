@@ -78,6 +78,10 @@ struct scree_module {
     size_t pass_count;
     /// Whether it has something to do in the stage that begins. NULL: always.
     bool (*in_use)(const scree_context *context);
+    /// Its passes, its begin and what it remembers are right where each process has a part of the bodies
+    /// (comm/parts.h): it loops over those that are here, and what it finds out of all goes through comm/comm.h. Of a
+    /// choice: so is all that follows from it. Without this a case is refused on several processes (run/ranks.h).
+    bool spreads;
     bool reads_moments; ///< needs the moments of contact forces (scree_body_contact_moment) while it is in use
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.

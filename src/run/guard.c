@@ -1,5 +1,6 @@
 /// Guards and their messages: which body, why, and what to try.
 #include "run/guard.h"
+#include "comm/comm.h"
 #include "state/plates.h"
 
 #include <math.h>
@@ -39,6 +40,18 @@ static scree_status stop_overlap(const scree_simulation *s, scree_error *error)
                            "try a stiffer material, a lower pressure or a slower rate",
                            (unsigned long long)s->state.step, (unsigned long long)s->work.flagged_id, row->x, row->y,
                            s->model.overlap_limit);
+}
+
+void scree_guard_join(const scree_state *state, scree_work *work)
+{
+    if (!state->part) return;
+    double flags[5] = {0};
+    for (int k = 0; k < 4; k++) flags[k] = work->flags >> k & 1;
+    flags[4] = work->flags ? -(double)work->flagged_id : (double)-INFINITY;
+    scree_comm_maximum(state, flags, 5);
+    work->flags = 0;
+    for (int k = 0; k < 4; k++) work->flags |= (uint32_t)(flags[k] > 0) << k;
+    if (work->flags) work->flagged_id = (uint64_t)-flags[4];
 }
 
 scree_status scree_guard_step(const scree_simulation *s, scree_error *error)

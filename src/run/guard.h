@@ -4,6 +4,9 @@
 
 #include "run/simulation_data.h"
 
+/// Of a part: what any process has flagged, all have.
+void scree_guard_join(const scree_state *state, scree_work *work);
+
 /// Looks at the flags that kernels and integrators raised in this step.
 scree_status scree_guard_step(const scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 

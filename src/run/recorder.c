@@ -8,6 +8,7 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/loading.h"
+#include "run/ranks.h"
 #include "run/sample.h"
 
 #include <math.h>
@@ -38,11 +39,11 @@ static void forward_line(void *user, scree_log_level level, const char *line)
     if (options->message) options->message(options->user, (int)level, line);
 }
 
-scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulation *s, const scree_run_options *options,
-                                 const char *directory, bool restart, scree_error *error)
+static scree_status open_files(scree_recorder *recorder, const scree_simulation *s, bool restart, scree_error *error)
 {
     char path[4096];
-    *recorder = (scree_recorder){.options = options, .directory = directory};
+    const char *directory = recorder->directory;
+    const scree_run_options *options = recorder->options;
     scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_LOG, error);
     if (status) return status;
     recorder->log = (scree_log){.file = fopen(path, "a"), .sink = forward_line};
@@ -52,7 +53,14 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     status = scree_series_open(&recorder->series, path, s->columns.column, s->columns.count,
                                restart ? s->state.stage.samples : -1, error);
     // Names of files that checkpoints count on.
-    if (!status) status = scree_folder_sync(directory, error);
+    return status ? status : scree_folder_sync(directory, error);
+}
+
+scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulation *s, const scree_run_options *options,
+                                 const char *directory, bool restart, scree_error *error)
+{
+    *recorder = (scree_recorder){.options = options, .directory = directory, .writes = scree_ranks_write()};
+    scree_status status = recorder->writes ? open_files(recorder, s, restart, error) : SCREE_OK;
     recorder->clocked[1] = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     recorder->started = recorder->clocked[0] = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->last_threads = -INFINITY;
@@ -84,10 +92,12 @@ void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_recorder_clock(recorder, s);
-    scree_status status = scree_contacts_save(&s->state, &s->work, error);
+    scree_status status = scree_ranks_gather(s, error);
+    if (!status) status = scree_contacts_save(&s->state, &s->work, error);
     // A checkpoint counts rows, so they are on the disk before it is.
-    if (!status) status = scree_series_sync(&recorder->series, error);
-    if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
+    if (!status && recorder->writes) status = scree_series_sync(&recorder->series, error);
+    if (!status && recorder->writes)
+        status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();
     recorder->checkpoint_evaluations = s->state.evaluations;
     return status;
@@ -131,6 +141,10 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .stage_name = s->model.stages[s->state.stage.index].name,
                                 .restartable = sound,
                                 .case_checksum = recorder->case_checksum};
+    if (!recorder->writes) {
+        s->state.stage.snapshots++;
+        return SCREE_OK;
+    }
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
     scree_wall_triangles walls = {0};
@@ -191,7 +205,7 @@ static void report_progress(scree_recorder *recorder, const scree_simulation *s,
                                .fraction = s->stage->fraction ? s->stage->fraction(s) : NAN,
                                .time = scree_state_time(&s->state),
                                .strain = scree_loading_strain(s),
-                               .particle_steps_per_second = (double)s->state.count * steps / passed,
+                               .particle_steps_per_second = (double)scree_state_total(&s->state) * steps / passed,
                                .seconds_left = ticks_left(s) * passed / ticks};
     recorder->options->progress(recorder->options->user, &progress);
 }
@@ -222,7 +236,8 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
     if (s->warning[0]) scree_log_write(&recorder->log, SCREE_LOG_WARNING, "%s", s->warning);
     s->warning[0] = 0;
     if (s->sampled) {
-        if ((status = scree_series_append(&recorder->series, s->sample, error))) return status;
+        if (recorder->writes) status = scree_series_append(&recorder->series, s->sample, error);
+        if (status) return status;
         s->state.stage.samples++;
         scree_quasistatic_follow(&recorder->watch, s, &recorder->log);
     }
@@ -232,8 +247,10 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
                         (unsigned long long)s->state.step, scree_state_time(&s->state), s->reason);
     if (s->state.evaluations % CLOCK_STEPS != 0 && !s->stage_ended) return SCREE_OK;
     double now = scree_clock();
-    if (s->stage_ended || checkpoint_due(recorder, s, now)) status = scree_recorder_checkpoint(recorder, s, error);
-    if (now - recorder->last_progress > PROGRESS_SECONDS) {
+    // Clocks differ: that of the process which writes counts.
+    const double due = scree_ranks_most(recorder->writes && checkpoint_due(recorder, s, now));
+    if (s->stage_ended || due > 0) status = scree_recorder_checkpoint(recorder, s, error);
+    if (recorder->writes && now - recorder->last_progress > PROGRESS_SECONDS) {
         report_progress(recorder, s, now);
         report_threads(recorder, s, now);
     }

@@ -10,6 +10,7 @@
 typedef struct scree_recorder {
     const scree_run_options *options;
     const char *directory;
+    bool writes; ///< this process writes the files (run/ranks.h)
     scree_log log;
     scree_series_writer series;
     scree_quasistatic_watch watch;

@@ -1,10 +1,12 @@
 /// The driver behind `scree run`: a case into a run directory, from the begin or from a checkpoint.
 #include "case/case.h"
+#include "comm/comm.h"
 #include "io/disk.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
 #include "io/snapshot.h"
 #include "run/after.h"
+#include "run/ranks.h"
 #include "run/recorder.h"
 #include "run/restart.h"
 #include "run/results.h"
@@ -29,22 +31,30 @@ static scree_status save_case(const char *directory, const scree_case *c, scree_
     return status ? status : scree_folder_sync(path, error);
 }
 
+/// Signal that asks to stop, 0: none. Processes ask each other in every 16th step.
+static int asked_to_stop(const scree_run_options *options, const scree_simulation *s)
+{
+    enum { STEPS = 16 };
+    const double own = options->stop ? *options->stop : 0;
+    if (scree_comm_size() == 1) return (int)own;
+    return s->state.evaluations % STEPS == 0 ? (int)scree_ranks_most(own) : 0;
+}
+
 /// Steps until the case ends, somebody asks to stop, or something fails.
 static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     double begin = scree_clock();
     scree_status status = SCREE_OK;
     scree_error second;
-    const volatile int *stop = recorder->options->stop;
+    int stop;
     while (!status && s->state.stage.index < s->model.stage_count) {
-        if (stop && *stop) {
+        if ((stop = asked_to_stop(recorder->options, s))) {
             status = scree_recorder_checkpoint(recorder, s, error);
             if (!status)
-                status =
-                    scree_error_set(error, SCREE_INTERRUPTED,
-                                    "interrupted at step %llu by signal %d (%s); continue with "
-                                    "`scree run --restart %s`",
-                                    (unsigned long long)s->state.step, *stop, strsignal(*stop), recorder->directory);
+                status = scree_error_set(error, SCREE_INTERRUPTED,
+                                         "interrupted at step %llu by signal %d (%s); continue with "
+                                         "`scree run --restart %s`",
+                                         (unsigned long long)s->state.step, stop, strsignal(stop), recorder->directory);
             break;
         }
         status = scree_simulation_step(s, error);
@@ -53,6 +63,8 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
         if (!status) status = scree_recorder_follow(recorder, s, error);
     }
     recorder->stepping = scree_clock() - begin;
+    // All other reasons are found by all processes, in the same step.
+    if (status == SCREE_ERROR_IO && error) scree_ranks_fail(recorder->options, error);
     return status;
 }
 
@@ -147,6 +159,7 @@ static scree_status complete(scree_recorder *recorder, scree_simulation *s, scre
     scree_summary *summary;
     scree_notes notes = {0};
     warn_of_springs(recorder, s);
+    scree_ranks_log(s, &recorder->log);
     scree_status status = scree_results_collect(recorder, s, &summary, error);
     if (!status) status = scree_results_write(recorder, summary, "finishing", error);
     if (!status) status = scree_run_file_finish(recorder->directory, &notes, error);
@@ -183,10 +196,15 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
 {
     scree_recorder recorder;
     scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted != NULL, error);
+    status = scree_comm_agree(status, error);
     recorder.case_checksum = checksum;
     if (!status) {
+        const int processes = scree_comm_size();
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(), s->model.name,
                         s->work.threads, s->work.threads == 1 ? "" : "s", restarted ? restarted : "");
+        if (processes > 1)
+            scree_log_write(&recorder.log, SCREE_LOG_INFO, "%d processes, %d of them on this machine", processes,
+                            scree_comm_neighbours());
         scree_notes_visit(notes, log_note, &recorder.log);
         if (lock->unsupported)
             scree_log_write(&recorder.log, SCREE_LOG_WARNING,
@@ -203,13 +221,11 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         if (!restarted) scree_quasistatic_warn(&s->model, &recorder.log);
         log_meshes(&recorder, s->work.wall_set);
         status = imposed(&recorder, s, error);
-        if (status)
-            leave(&recorder, s, error);
-        else
-            status = complete(&recorder, s, error);
+        if (status && recorder.writes) leave(&recorder, s, error);
+        if (!status && recorder.writes) status = complete(&recorder, s, error);
     }
     scree_recorder_close(&recorder);
-    return status;
+    return scree_comm_agree(status, error);
 }
 
 /// Brings an open simulation that has a state to where stepping begins, its folder too. `point`: where the state is.
@@ -220,7 +236,9 @@ static scree_status take_up(scree_simulation *s, const char *directory, uint64_t
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (s->state.count > 0) status = scree_neighbours_refresh(&s->model, &s->state, &s->work, error);
     if (!status && s->state.stage.counter >= 0) status = scree_stage_enter(s, true, error);
-    return status ? status : scree_restart_rewind(s, directory, checksum, point, notes, error);
+    status = scree_comm_agree(status, error);
+    if (!status && scree_ranks_write()) status = scree_restart_rewind(s, directory, checksum, point, notes, error);
+    return scree_comm_agree(status, error);
 }
 
 static scree_status make_folder(const scree_case *c, const scree_run_options *options, scree_notes *notes,
@@ -234,21 +252,32 @@ static scree_status make_folder(const scree_case *c, const scree_run_options *op
     return status;
 }
 
+/// Opens the simulation, in all processes the same one.
+static scree_status open_case(const scree_case *c, const scree_run_options *options, scree_simulation *s,
+                              uint64_t *checksum, scree_error *error)
+{
+    scree_status status = scree_simulation_open(c, options->threads, s, error);
+    if (!status) status = scree_ranks_check(s, error);
+    if (!status) status = scree_case_checksum(c, checksum, error);
+    return scree_ranks_open(*checksum, status, error);
+}
+
 scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error)
 {
-    uint64_t checksum;
+    uint64_t checksum = 0;
     scree_simulation s;
     scree_folder_lock lock = {0};
     scree_notes notes = {0};
     scree_after after;
     const char *other = options->after;
     // Everything that can be wrong with the case is found before anything is written.
-    scree_status status = scree_simulation_open(c, options->threads, &s, error);
-    if (!status) status = scree_case_checksum(c, &checksum, error);
-    if (!status && other) status = scree_after_read(&s, c, options, &after, error);
-    if (!status) status = scree_run_directory_lock(options->output, &lock, error);
-    if (!status) status = make_folder(c, options, &notes, error);
-    if (!status && other) status = scree_after_copy(&s, other, options->output, error);
+    scree_status status = open_case(c, options, &s, &checksum, error);
+    if (!status && other) status = scree_comm_agree(scree_after_read(&s, c, options, &after, error), error);
+    const bool writes = scree_ranks_write();
+    if (!status && writes) status = scree_run_directory_lock(options->output, &lock, error);
+    if (!status && writes) status = make_folder(c, options, &notes, error);
+    if (!status && writes && other) status = scree_after_copy(&s, other, options->output, error);
+    status = scree_comm_agree(status, error);
     if (!status && other) status = take_up(&s, options->output, checksum, &after.point, &notes, error);
     if (!status) status = record(&s, options, &lock, checksum, other ? after.told : NULL, &notes, error);
     scree_folder_lock_release(&lock);
@@ -259,16 +288,16 @@ scree_status scree_run(const scree_case *c, const scree_run_options *options, sc
 static scree_status restart(const char *directory, const scree_run_options *options, const scree_folder_lock *lock,
                             scree_error *error)
 {
-    uint64_t checksum;
+    uint64_t checksum = 0;
     scree_case *c = NULL;
     scree_simulation s = {0};
-    scree_status status = scree_restart_case(directory, &c, error);
+    scree_status status = scree_comm_agree(scree_restart_case(directory, &c, error), error);
     if (status) return status;
-    status = scree_simulation_open(c, options->threads, &s, error);
-    if (!status) status = scree_case_checksum(c, &checksum, error);
+    status = open_case(c, options, &s, &checksum, error);
     scree_notes notes = {0};
     scree_restart_point point;
     if (!status) status = scree_restart_read(&s, directory, options->from, checksum, &point, &notes, error);
+    status = scree_comm_agree(status, error);
     if (!status) status = take_up(&s, directory, checksum, &point, &notes, error);
     if (!status) status = record(&s, options, lock, checksum, ", restarted", &notes, error);
     scree_simulation_close(&s);
@@ -278,10 +307,12 @@ static scree_status restart(const char *directory, const scree_run_options *opti
 
 scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error)
 {
-    scree_folder_lock lock;
+    scree_folder_lock lock = {0};
     scree_run_options here = *options;
     here.output = directory;
-    scree_status status = scree_folder_lock_take(&lock, directory, "scree run --restart", error);
+    scree_status status = SCREE_OK;
+    if (scree_ranks_write()) status = scree_folder_lock_take(&lock, directory, "scree run --restart", error);
+    status = scree_comm_agree(status, error);
     if (!status) status = restart(directory, &here, &lock, error);
     scree_folder_lock_release(&lock);
     return status;

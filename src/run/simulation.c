@@ -2,10 +2,13 @@
 #include "run/simulation.h"
 
 #include "base/processor.h"
+#include "comm/comm.h"
 #include "integrate/forced_spin.h"
 #include "load/gravity.h"
 #include "measure/measure.h"
+#include "run/guard.h"
 #include "run/own_force.h"
+#include "run/ranks.h"
 #include "run/sample.h"
 #include "run/stability.h"
 #include "run/step.h"
@@ -35,7 +38,8 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     s->integrator = scree_integrator_get(s->model.scheme);
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
     if (threads <= 0)
-        threads = (int)fmin(scree_processor_count(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
+        threads = (int)fmin(fmax(1, scree_processor_count() / scree_comm_neighbours()),
+                            1 + (double)c->config.particles.count / BODIES_A_THREAD);
     status = scree_work_create(&s->work, &s->model, threads, error);
     if (!status && (status = scree_wall_set_create(&c->config, &s->work.wall_set, error))) scree_case_locate(c, error);
     if (!status) status = scree_columns_create(&c->config, &s->columns, error);
@@ -167,6 +171,18 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
     return scree_sample_take(s, error);
 }
 
+/// A step by parts; what stops it is told of the whole state.
+static scree_status take_step(scree_simulation *s, scree_error *error)
+{
+    scree_status status = scree_ranks_spread(s, error);
+    if (!status) status = scree_step(s, error);
+    if (status != SCREE_ERROR_GUARD || !s->state.part) return status;
+    scree_error second;
+    const uint32_t flags = s->work.flags;
+    if (scree_ranks_gather(s, flags ? error : &second)) return flags ? SCREE_ERROR_IO : status;
+    return flags ? scree_guard_step(s, error) : status;
+}
+
 scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
 {
     s->sampled = s->stage_ended = false;
@@ -176,10 +192,12 @@ scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
     scree_status status = scree_stability_check(s, error);
     if (status) return status;
     s->whole = false;
-    if ((status = scree_step(s, error))) return status;
+    if ((status = take_step(s, error))) return status;
     uint64_t done = s->state.step - s->state.stage.first_step;
     const bool due = done % s->plan.interval == 0 || done == s->plan.expected;
-    if (due && (status = scree_sample_take(s, error))) return status;
+    if (due) status = scree_ranks_gather(s, error);
+    if (due && !status) status = scree_sample_take(s, error);
+    if (status) return status;
     s->sampled = due;
     scree_stability_ask(s, false);
     if (!due) return SCREE_OK;

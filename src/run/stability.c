@@ -116,9 +116,10 @@ static uint64_t bonds_standing(const scree_state *state)
 static bool bonds_have_changed(const scree_state *state, memory *all)
 {
     int64_t number[] = {(int64_t)scree_bonds_of(state)->count, (int64_t)scree_persistent(state)->count};
+    if (scree_bonds_of(state)->made == 0) return false;
     scree_comm_add(state, number, 2);
     const uint64_t now = (uint64_t)number[0] << 32 | (uint64_t)number[1];
-    if (scree_bonds_of(state)->made == 0 || now == all->looked) return false;
+    if (now == all->looked) return false;
     all->looked = now;
     return has_changed(all->bonds, bonds_standing(state));
 }

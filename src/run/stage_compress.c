@@ -162,4 +162,5 @@ const scree_module scree_module_compress = {
     .rules = rules,
     .numbers = &numbers,
     .stage = &stage_face,
+    .spreads = true,
 };

@@ -210,4 +210,5 @@ const scree_module scree_module_confine = {
     .state_size = sizeof(confinement),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .spreads = true,
 };

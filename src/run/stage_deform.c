@@ -221,4 +221,5 @@ const scree_module scree_module_deform = {
     .keys_count = 1,
     .numbers = &numbers,
     .stage = &stage_face,
+    .spreads = true,
 };

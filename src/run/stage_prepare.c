@@ -71,4 +71,5 @@ const scree_module scree_module_prepare = {
     .keys_count = 1,
     .numbers = &numbers,
     .stage = &stage_face,
+    .spreads = true,
 };

@@ -146,4 +146,5 @@ const scree_module scree_module_relax = {
     .keys_count = 1,
     .numbers = &numbers,
     .stage = &stage_face,
+    .spreads = true,
 };

@@ -77,7 +77,6 @@ static double bound_of_loads(const scree_context *c)
 static scree_status contact_forces(const scree_context *c, scree_error *error)
 {
     (void)error;
-    scree_comm_maximum(c->state, &c->state->largest_speed, 1);
     scree_contact_set_quanta(c->model, c->state, bound_of_loads(c));
     scree_contact_forces(c->model, c->state, c->work);
     return SCREE_OK;
@@ -101,6 +100,9 @@ static scree_status second_half(const scree_context *c, scree_error *error)
 
 static scree_status guard(const scree_context *c, scree_error *error)
 {
+    scree_guard_join(c->state, c->work);
+    // Which body it is, and where, is told of the whole state.
+    if (c->state->part) return c->work->flags ? SCREE_ERROR_GUARD : SCREE_OK;
     return scree_guard_step(c->simulation, error);
 }
 

@@ -42,7 +42,7 @@ void scree_fast_find(scree_fast *fast, const scree_state *state, double skin)
 {
     runner best[SCREE_FAST + 1];
     fast->count = 0;
-    if (state->stretch || scree_cell(state)->directions || some_plate_stands(state)) return;
+    if (state->part || state->stretch || scree_cell(state)->directions || some_plate_stands(state)) return;
     const int last = find_fastest(state, best) - 1;
     for (int k = 0; k < last && best[k].speed > 2 * best[last].speed; k++) {
         const double share = best[k].speed / best[last].speed;

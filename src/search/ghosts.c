@@ -11,11 +11,17 @@
 /// multiplications each, 3^d look-ups a body near a face. Limit: one size of cells, so a layer of many small bodies
 /// among a few large ones is searched slowly. One thread.
 ///
+/// Parts. Where other processes have some of the bodies (comm/parts.h), they are offered ghosts of those that may come
+/// near theirs: of the body itself to processes of lower numbers, of its images with a positive shift to all. Near is
+/// what lies within reach of the box around their bodies. All own bodies look for ghosts then, those in the cells
+/// around some first: a bit a cell.
+///
 /// Nothing here changes the state of bodies: rebuilding a list at another step gives the same forces to the last bit.
 #include "search/ghosts.h"
 
 #include "base/matrix.h"
 #include "comm/comm.h"
+#include "comm/parts.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -48,6 +54,14 @@ static ghost_range measure_range(const scree_state *state, const scree_work *wor
             range.high[k] = f[k] > range.high[k] ? f[k] : range.high[k];
         }
     }
+    double ends[7] = {-range.low[0], -range.low[1], -range.low[2], range.high[0],
+                      range.high[1], range.high[2], range.radius};
+    scree_comm_maximum(state, ends, 7);
+    for (int k = 0; k < 3; k++) {
+        range.low[k] = -ends[k];
+        range.high[k] = ends[3 + k];
+    }
+    range.radius = ends[6];
     return range;
 }
 
@@ -113,20 +127,98 @@ static scree_status append_ghosts(const scree_state *state, scree_work *work, co
     return status;
 }
 
+// ---- ghosts of bodies of other processes -------------------------------------------------------------------------
+
+/// What is offered to other processes: the boxes around their bodies.
+typedef struct neighbourhood {
+    double (*box)[6]; ///< m, of each process: lowest x, y, z, then highest
+    double reach;     ///< m, of the largest body and the skin
+} neighbourhood;
+
+/// Whether a body with this centre may touch one of the process.
+static bool is_near(const neighbourhood *n, int process, int dimension, const scree_vector place, double radius)
+{
+    const double *box = n->box[process], reach = n->reach + radius;
+    for (int k = 0; k < dimension; k++)
+        if (!(place[k] >= box[k] - reach && place[k] <= box[3 + k] + reach)) return false;
+    return true;
+}
+
+/// Offers the ghost to all that may need it; one of an own body for own bodies comes into the list.
+static scree_status offer(const scree_state *state, scree_work *work, const neighbourhood *n, const scree_ghost *ghost,
+                          scree_error *error)
+{
+    scree_vector place, shift = {ghost->shift[0], ghost->shift[1], ghost->shift[2]}, by = {0};
+    const bool image = is_positive(ghost->shift);
+    const int here = scree_comm_rank(), last = image ? scree_comm_size() : here;
+    scree_status status = SCREE_OK;
+    scree_body_position(state, ghost->parent, place);
+    if (image) scree_matrix_apply(scree_cell(state)->lattice, shift, by);
+    for (int k = 0; k < 3; k++) place[k] += by[k];
+    for (int r = 0; r < last && !status; r++) {
+        if (!is_near(n, r, state->dimension, place, state->row[ghost->parent].radius)) continue;
+        status = r == here ? append_ghost(&work->ghosts, ghost->parent, ghost->shift, error)
+                           : scree_parts_offer(work, r, ghost, error);
+    }
+    return status;
+}
+
+/// All ghosts of one body, in all processes.
+static scree_status offer_ghosts(const scree_state *state, scree_work *work, const ghost_range *range,
+                                 const neighbourhood *n, uint32_t row, scree_error *error)
+{
+    double f[3];
+    int least[3] = {0}, most[3] = {0};
+    scree_ghost ghost = {.parent = row};
+    scree_status status = SCREE_OK;
+    fraction_of(state, work, row, f);
+    if (!isfinite(f[0] + f[1] + f[2])) return SCREE_OK;
+    for (int k = 0; k < state->dimension; k++) {
+        if (!scree_periodic_repeats(scree_cell(state), k)) continue;
+        const double margin = (state->row[row].radius + n->reach) / range->width[k];
+        least[k] = (int)ceil(range->low[k] - margin - f[k]);
+        most[k] = (int)floor(range->high[k] + margin - f[k]);
+    }
+    for (int x = least[0]; x <= most[0]; x++)
+        for (int y = least[1]; y <= most[1]; y++)
+            for (int z = least[2]; z <= most[2] && !status; z++) {
+                const int shift[3] = {x, y, z};
+                memcpy(ghost.shift, shift, sizeof shift);
+                if (is_positive(shift) || !(x || y || z)) status = offer(state, work, n, &ghost, error);
+            }
+    return status;
+}
+
+static scree_status make_parts(scree_state *state, scree_work *work, const ghost_range *range, scree_error *error)
+{
+    neighbourhood n = {.reach = range->radius + work->skin};
+    scree_status status = scree_allocate(&n.box, (size_t)scree_comm_size(), sizeof *n.box, error);
+    if (status) return status;
+    scree_parts_boxes(state, n.box);
+    work->parts->sent_count = 0;
+    for (size_t row = 0; row < state->count && !status; row++)
+        status = offer_ghosts(state, work, range, &n, (uint32_t)row, error);
+    scree_release(&n.box);
+    work->ghosts.by_parent = work->ghosts.count;
+    return status ? status : scree_parts_link(state, work, error);
+}
+
 scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error *error)
 {
     scree_ghost_list *list = &work->ghosts;
-    list->count = 0;
-    if (!scree_cell(state)->directions) return SCREE_OK;
-    scree_matrix_invert(scree_cell(state)->lattice, list->lattice_inverse);
+    list->count = list->away = 0;
+    if (!scree_cell(state)->directions && !state->part) return SCREE_OK;
+    scree_matrix_unit(list->lattice_inverse);
+    if (scree_cell(state)->directions) scree_matrix_invert(scree_cell(state)->lattice, list->lattice_inverse);
     ghost_range range = measure_range(state, work);
     list->largest_radius = range.radius;
     scree_status status = check_range(state, &range, work->skin, error);
-    for (size_t row = 0; row < state->count && !status; row++)
+    if (!status && state->part) status = make_parts(state, work, &range, error);
+    for (size_t row = 0; row < state->count && !status && !state->part; row++)
         status = append_ghosts(state, work, &range, (uint32_t)row, error);
-    list->by_parent = list->count;
+    if (!state->part) list->by_parent = list->count;
     if (!status) return scree_comm_begin(state, work, error);
-    list->count = 0;
+    list->count = list->away = 0;
     return status;
 }
 
@@ -181,6 +273,7 @@ typedef struct ghost_table {
     double inverse_width;  ///< 1/m
     uint32_t *head, *next; ///< 1 + ghost, 0 for none
     uint64_t mask;
+    uint8_t *around; ///< parts: not 0 in the slots of cells around ghosts; NULL: not asked
 } ghost_table;
 
 static uint64_t slot_of(const ghost_table *table, const int64_t cell[3])
@@ -201,13 +294,37 @@ static void table_destroy(ghost_table *table)
 {
     scree_release(&table->head);
     scree_release(&table->next);
+    scree_release(&table->around);
+}
+
+/// Marks the slots of the cells around the ghosts.
+static scree_status table_mark(const scree_state *state, const scree_work *work, ghost_table *table, scree_error *error)
+{
+    scree_status status = scree_allocate(&table->around, table->mask + 1, 1, error);
+    const int64_t deep = state->dimension == 3;
+    for (size_t k = 0; k < work->ghosts.count && !status; k++) {
+        int64_t at[3], cell[3];
+        cell_of(state, table, state->count + k, at);
+        for (cell[0] = at[0] - 1; cell[0] <= at[0] + 1; cell[0]++)
+            for (cell[1] = at[1] - 1; cell[1] <= at[1] + 1; cell[1]++)
+                for (cell[2] = at[2] - deep; cell[2] <= at[2] + deep; cell[2]++)
+                    table->around[slot_of(table, cell)] = 1;
+    }
+    return status;
+}
+
+static bool is_around(const scree_state *state, const ghost_table *table, size_t row)
+{
+    int64_t cell[3];
+    cell_of(state, table, row, cell);
+    return table->around[slot_of(table, cell)];
 }
 
 static scree_status table_fill(const scree_state *state, const scree_work *work, ghost_table *table, scree_error *error)
 {
     const scree_ghost_list *list = &work->ghosts;
     uint64_t slots = 64;
-    while (slots < 2 * list->count) slots *= 2;
+    while (slots < (state->part ? 64 : 2) * list->count) slots *= 2;
     *table = (ghost_table){.inverse_width = 1 / ((2 * list->largest_radius + work->skin) * (1 + 0x1p-20)),
                            .mask = slots - 1};
     scree_status status = scree_allocate(&table->head, slots, sizeof *table->head, error);
@@ -290,11 +407,12 @@ scree_status scree_ghosts_search(const scree_state *state, const scree_work *wor
     chunk->touching.count = chunk->near.count = chunk->wall.count = 0;
     chunk->candidates = 0;
     if (work->ghosts.count == 0) return SCREE_OK;
-    ghost_range range = measure_range(state, work);
-    double reach = 2 * range.radius + work->skin;
     scree_status status = table_fill(state, work, &table, error);
+    if (!status && state->part) status = table_mark(state, work, &table, error);
+    const ghost_range range = state->part ? (ghost_range){.radius = 0} : measure_range(state, work);
+    const double reach = 2 * range.radius + work->skin;
     for (size_t row = 0; row < state->count && !status; row++)
-        if (is_near_face(state, work, &range, reach, row))
+        if (state->part ? is_around(state, &table, row) : is_near_face(state, work, &range, reach, row))
             status = search_body(state, work, &table, (uint32_t)row, chunk, error);
     table_destroy(&table);
     return status;

@@ -127,15 +127,15 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
     return SCREE_OK;
 }
 
-/// Lower row of the pair of an entry; `count` for an entry that belongs to no pair.
+/// Lower row of the pair of an entry, that of the body which is here where the other is not; `count` for an entry that
+/// belongs to no pair.
 static uint32_t lower_row(const scree_state *state, const scree_contact_memory *memory)
 {
-    uint32_t first = scree_state_row_of(state, memory->first);
-    if (first == SCREE_NO_ROW) return (uint32_t)state->count;
-    if (memory->second >= SCREE_PRIMITIVE_ID) return first;
-    uint32_t second = scree_state_row_of(state, memory->second);
-    if (second == SCREE_NO_ROW) return (uint32_t)state->count;
-    return first < second ? first : second;
+    const uint32_t first = scree_state_row_of(state, memory->first);
+    const uint32_t second =
+        memory->second >= SCREE_PRIMITIVE_ID ? SCREE_NO_ROW : scree_state_row_of(state, memory->second);
+    const uint32_t lower = first < second ? first : second;
+    return lower == SCREE_NO_ROW ? (uint32_t)state->count : lower;
 }
 
 static scree_status reserve_indices(uint32_t **array, size_t *capacity, size_t count, scree_error *error)

@@ -25,6 +25,7 @@
 
 #include "base/matrix.h"
 #include "comm/comm.h"
+#include "comm/parts.h"
 #include "search/ghosts.h"
 #include "search/search.h"
 #include "shape/wall_set.h"
@@ -403,6 +404,15 @@ static bool is_of_these_bodies(const scree_search *search, const scree_state *st
     return search->bodies == state->count && search->changes == state->changes;
 }
 
+/// What the contacts of the old list remember goes into the state; bodies go to other processes with it.
+static scree_status take_histories(scree_state *state, scree_work *work, scree_error *error)
+{
+    if (!work->search->listed || !is_of_these_bodies(work->search, state)) return SCREE_OK;
+    scree_status status = scree_histories_collect(state, work, error);
+    if (!status && state->part) status = scree_parts_migrate(state, work, error);
+    return status;
+}
+
 static scree_status rebuild(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
@@ -413,13 +423,13 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     // A neck begins with a touch, in the list; it must not leave the list while it lasts.
     work->skin = fmax(work->skin, 2 * scree_model_reach(model));
     // Until the new list is whole, state->contact holds the histories: a rebuild that fails can be repeated.
-    if (search->listed && is_of_these_bodies(search, state)) status = scree_histories_collect(state, work, error);
-    if (status) return status;
+    if ((status = take_histories(state, work, error))) return status;
     search->listed = false;
     search->bodies = state->count;
     search->changes = state->changes;
     scree_pairs_clear(&work->pairs);
     work->wall_pairs.count = work->primitive_pairs.count = work->ghosts.count = 0;
+    work->ghosts.away = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     for (int m = 0; m < SCREE_MODULE_COUNT; m++)
@@ -500,6 +510,6 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
     scree_comm_maximum(state, &due, 1);
     if (due == REBUILD) return rebuild(model, state, work, error);
     scree_status status = due == KEEP ? SCREE_OK : check_list(model, state, work, error);
-    if (!status && work->ghosts.count > 0) scree_comm_exchange(state, work);
+    if (!status && (work->ghosts.count > 0 || state->part)) scree_comm_exchange(state, work);
     return status;
 }

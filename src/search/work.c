@@ -6,6 +6,7 @@
 /// In a dense packing of discs (bench/bench_neighbours: 2.09, 2.18, 2.25, 2.31, 2.42 pairs a disc for s = 0.05, 0.1,
 /// 0.15, 0.2, 0.3, of which 1.96 touch) n = 1.3; with r = 95 ns and t = 2.5 ns, s = 0.24 for u = 1e-3, a rapid flow,
 /// and 0.08 for u = 1e-4, as in a slow one. At 0.15 either costs below 0.5 ns a body and step more than at its best.
+#include "comm/parts.h"
 #include "search/neighbours.h"
 #include "search/search.h"
 #include "shape/wall_set.h"
@@ -47,6 +48,7 @@ void scree_work_destroy(scree_work *work)
     }
     scree_release(&work->search);
     scree_release(&work->ghosts.ghost);
+    scree_parts_destroy(work);
     scree_release(&work->relative);
     scree_pair_lists_destroy(work);
     scree_wall_set_destroy(&work->wall_set);

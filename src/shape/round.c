@@ -26,6 +26,7 @@ const scree_module scree_module_disc = {
                                                "to sphere",
                                   .round = true,
                                   .volume = disc_area},
+    .spreads = true,
 };
 
 const scree_module scree_module_sphere = {
@@ -37,4 +38,5 @@ const scree_module scree_module_sphere = {
                                   .only_here = "spheres need dimension: 3; in two dimensions particles are discs",
                                   .round = true,
                                   .volume = sphere_volume},
+    .spreads = true,
 };

@@ -145,4 +145,5 @@ const scree_module scree_module_case_walls = {
     .columns = SCREE_RESULTS(columns, sample),
     .results = SCREE_RESULTS(results, conclude),
     .told = told,
+    .spreads = true,
 };

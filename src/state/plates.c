@@ -84,4 +84,5 @@ const scree_module scree_module_plates = {
     .checksum = checksum,
     .passes = passes,
     .pass_count = 1,
+    .spreads = true,
 };

@@ -195,6 +195,8 @@ struct scree_state {
     size_t id_count;            ///< of row_of_id: ids from it on are of no body that is here (derived)
     size_t marked[SCREE_MARKS]; ///< bodies with each mark (derived)
     uint64_t changes;           ///< appends and removals in this process: lists of rows made before are void (derived)
+    bool part;                  ///< the others of `total` bodies are with other processes (comm/parts.h) (derived)
+    size_t total;               ///< of a part: bodies of all processes (derived)
     uint64_t step;            ///< time of the run in ticks; time = stage.first_time + (step - stage.first_step) * tick
     uint64_t evaluations;     ///< steps taken since the start of the run, one force evaluation each
     double tick;              ///< s, the small step of two_timescales, the step of all other schemes
@@ -273,6 +275,12 @@ static inline uint32_t scree_next_by_id(const scree_state *state, size_t *id)
         if (row != SCREE_NO_ROW) return row;
     }
     return SCREE_NO_ROW;
+}
+
+/// Bodies of all processes.
+static inline size_t scree_state_total(const scree_state *state)
+{
+    return state->part ? state->total : state->count;
 }
 
 /// Number of grains: bodies of the assembly.

@@ -99,16 +99,17 @@ static inline int scree_wall_pair_law(const scree_wall_pair_list *list, size_t p
     return list->law ? list->law[pair] : 0;
 }
 
-/// A ghost of a body in a periodic cell: row count + k of the state belongs to ghost k. Images are made anew with the
-/// pair list and follow their bodies in every step (search/ghosts.h).
+/// A ghost of a body in a periodic cell, or of a body of another process: row count + k of the state belongs to ghost
+/// k. Images are made anew with the pair list and follow their bodies in every step (search/ghosts.h).
 typedef struct scree_ghost {
-    uint32_t parent;  ///< row of the body
+    uint32_t parent;  ///< row of the body; of a ghost whose body is not here its own row
     int32_t shift[3]; ///< lattice vectors from the body to the ghost; the first that is not zero is positive
 } scree_ghost;
 
 typedef struct scree_ghost_list {
     scree_ghost *ghost;
     size_t count, capacity;
+    size_t away;               ///< the last ones: those of bodies of other processes, in the order of these
     size_t by_parent;          ///< the first ones, in the order of their parents
     double lattice_inverse[9]; ///< 1/m, at the last rebuild
     double largest_radius;     ///< m, of all bodies
@@ -161,6 +162,7 @@ typedef struct scree_work {
     uint64_t flagged_id;         ///< a body that raised a flag
     size_t clear_rows;           ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
     void *contact_scratch;       ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
+    struct scree_parts *parts;   ///< what goes to other processes (comm/parts.h); NULL: all is here
 } scree_work;
 
 /// Rows that the pair list may name: bodies and ghosts.
@@ -169,7 +171,7 @@ static inline size_t scree_row_count(const scree_state *state, const scree_work 
     return state->count + work->ghosts.count;
 }
 
-/// The row of the body that `row` is, or is a ghost of.
+/// The row of the body that `row` is, or is a ghost of; a ghost whose body is not here stands for itself.
 static inline uint32_t scree_parent_row(const scree_state *state, const scree_work *work, uint32_t row)
 {
     return row < state->count ? row : work->ghosts.ghost[row - state->count].parent;

@@ -1,0 +1,464 @@
+/// Parts of a sample: who has which body, and how bodies and what contacts remember go from one process to another.
+///
+/// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
+/// when a state is spread, and anew when the fullest part has SCREE_PARTS_IMBALANCE times the mean. Between two lists a
+/// body stays where it is, however it moves. For tests bodies go anywhere, at every list, from a seed.
+///
+/// Cost: to gather and to spread a state some copies of all of it, in every process: this is the array of all bodies
+/// that later work has to do without.
+#include "comm/parts.h"
+
+#include "comm/comm.h"
+#include "state/periodic.h"
+#include "state/store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static scree_status open_parts(scree_work *work, scree_error *error)
+{
+    if (work->parts) return SCREE_OK;
+    const size_t size = (size_t)scree_comm_size();
+    scree_status status = scree_allocate(&work->parts, 1, sizeof *work->parts, error);
+    if (!status) status = scree_allocate(&work->parts->send, size, sizeof *work->parts->send, error);
+    if (!status) status = scree_allocate(&work->parts->receive, size, sizeof *work->parts->receive, error);
+    const char *seed = getenv("SCREE_RANDOM_PARTS");
+    if (!status && seed) work->parts->seed = strtoull(seed, NULL, 10);
+    return status;
+}
+
+void scree_parts_destroy(scree_work *work)
+{
+    scree_parts *parts = work->parts;
+    if (!parts) return;
+    void *const arrays[] = {&parts->sent, &parts->sent_to, &parts->send, &parts->receive, &parts->out, &parts->in};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
+    scree_release(&work->parts);
+}
+
+static void forget_ghosts(scree_work *work)
+{
+    work->ghosts.count = work->ghosts.away = 0;
+    work->parts->sent_count = 0;
+    memset(work->parts->send, 0, (size_t)scree_comm_size() * sizeof *work->parts->send);
+    memset(work->parts->receive, 0, (size_t)scree_comm_size() * sizeof *work->parts->receive);
+}
+
+// ---- who has which body ------------------------------------------------------------------------------------------
+
+static int at_random(const scree_parts *parts, uint32_t id)
+{
+    uint64_t z = id + parts->seed * UINT64_C(0x9e3779b97f4a7c15) + parts->draws * UINT64_C(0xd1342543de82ef95);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (int)((z ^ z >> 31) % (uint64_t)scree_comm_size());
+}
+
+/// The process that each row goes to.
+static void choose(const scree_state *state, scree_parts *parts, int32_t *to)
+{
+    parts->draws++;
+    for (size_t row = 0; row < state->count; row++) {
+        scree_vector place;
+        scree_body_position(state, row, place);
+        to[row] = parts->seed ? at_random(parts, state->id[row]) : scree_comm_part_of(place);
+    }
+}
+
+/// Cuts space by the places of the rows from `begin` to `end`.
+static scree_status cut(const scree_state *state, scree_parts *parts, size_t begin, size_t end, scree_error *error)
+{
+    scree_vector *place;
+    if (parts->seed) return SCREE_OK;
+    scree_status status = scree_allocate(&place, end - begin + 1, sizeof *place, error);
+    for (size_t row = begin; row < end && !status; row++) scree_body_position(state, row, place[row - begin]);
+    if (!status) status = scree_comm_cut((const double(*)[3])place, end - begin, state->dimension, error);
+    parts->cuts++;
+    scree_release(&place);
+    return status;
+}
+
+static bool out_of_balance(const scree_state *state)
+{
+    double largest = (double)state->count;
+    scree_comm_maximum(state, &largest, 1);
+    const double mean = (double)state->total / scree_comm_size();
+    // One or two bodies more or less are not worth a cut.
+    return largest > SCREE_PARTS_IMBALANCE * mean + 2;
+}
+
+// ---- rows --------------------------------------------------------------------------------------------------------
+
+static void number_rows(scree_state *state)
+{
+    memset(state->marked, 0, sizeof state->marked);
+    for (size_t row = 0; row < state->count; row++) {
+        state->row_of_id[state->id[row]] = (uint32_t)row;
+        state->marked[state->mark[row]]++;
+    }
+}
+
+/// Leaves the rows that stay here, in their order.
+static void keep_rows(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
+{
+    const int here = scree_comm_rank();
+    size_t kept = 0;
+    for (size_t row = 0; row < state->count; row++) {
+        if (to[row] != here) {
+            state->row_of_id[state->id[row]] = SCREE_NO_ROW;
+            continue;
+        }
+        for (size_t k = 0; k < arrays && kept != row; k++) {
+            unsigned char *array = *(unsigned char **)list[k].pointer;
+            memcpy(array + kept * list[k].size, array + row * list[k].size, list[k].size);
+        }
+        kept++;
+    }
+    state->count = kept;
+    number_rows(state);
+}
+
+/// Arrays with one element a body: those of the declarations, and what a cell in motion keeps beside the rows.
+static size_t list_arrays(const scree_state *state, scree_work *work, scree_body_array list[SCREE_BODY_ARRAYS + 1])
+{
+    size_t arrays = scree_body_arrays(state, list);
+    if (scree_periodic_is_whole(state))
+        list[arrays++] = (scree_body_array){&work->relative, sizeof *work->relative, false, true};
+    return arrays;
+}
+
+/// Room for `count` bodies in all of them.
+static scree_status reserve_rows(scree_state *state, scree_work *work, size_t count, scree_error *error)
+{
+    scree_status status = scree_store_reserve_bodies(state, count, false, error);
+    if (status || !scree_periodic_is_whole(state) || count < work->relative_capacity) return status;
+    const size_t room = count + count / 8 + 16;
+    status = scree_reallocate(&work->relative, work->relative_capacity, room, sizeof *work->relative, error);
+    if (!status) work->relative_capacity = room;
+    return status;
+}
+
+// ---- what contacts remember --------------------------------------------------------------------------------------
+
+/// The arrays of contacts, at most four, which all processes have alike, with room for `count` contacts.
+static scree_status list_contacts(scree_state *state, const scree_work *work, size_t count, scree_body_array list[4],
+                                  size_t *arrays, scree_error *error)
+{
+    scree_status status = scree_state_reserve_contacts(state, count + 1, error);
+    if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
+    if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
+    if (!status && state->pair_laws > 0) status = scree_state_add_contact_law(state, error);
+    *arrays = 0;
+    list[(*arrays)++] = (scree_body_array){.pointer = &state->contact, .size = sizeof *state->contact};
+    if (state->last_force)
+        list[(*arrays)++] = (scree_body_array){.pointer = &state->last_force, .size = sizeof *state->last_force};
+    if (state->rolling)
+        list[(*arrays)++] = (scree_body_array){.pointer = &state->rolling, .size = sizeof *state->rolling};
+    if (state->contact_law)
+        list[(*arrays)++] = (scree_body_array){.pointer = &state->contact_law, .size = sizeof *state->contact_law};
+    return status;
+}
+
+/// The processes that the two bodies of contact `k` go to; a wall goes with the body.
+static void ends_of(const scree_state *state, const int32_t *to, size_t k, int end[2])
+{
+    const scree_contact_memory *memory = &state->contact[k];
+    const uint32_t first = scree_state_row_of(state, memory->first);
+    uint32_t second = first;
+    if (memory->second < SCREE_PRIMITIVE_ID) second = scree_state_row_of(state, memory->second);
+    end[0] = first == SCREE_NO_ROW ? scree_comm_rank() : to[first];
+    end[1] = second == SCREE_NO_ROW ? end[0] : to[second];
+}
+
+/// Leaves the contacts of bodies that stay here, in their order.
+static void keep_contacts(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
+{
+    size_t kept = 0;
+    for (size_t c = 0; c < state->contact_count; c++) {
+        int end[2];
+        ends_of(state, to, c, end);
+        if (end[0] != scree_comm_rank() && end[1] != scree_comm_rank()) continue;
+        for (size_t k = 0; k < arrays && kept != c; k++) {
+            unsigned char *array = *(unsigned char **)list[k].pointer;
+            memcpy(array + kept * list[k].size, array + c * list[k].size, list[k].size);
+        }
+        kept++;
+    }
+    state->contact_count = kept;
+}
+
+// ---- from one process to another ---------------------------------------------------------------------------------
+
+/// Elements that go: `index` in the order of the processes, send[r] to process r, and receive[r] that come from it.
+typedef struct journey {
+    uint32_t *index;
+    size_t *send, *receive;
+    size_t leaving, arriving;
+    unsigned char *in; ///< what has come, of each array all elements
+} journey;
+
+static void journey_destroy(journey *j)
+{
+    void *const arrays[] = {&j->index, &j->send, &j->receive, &j->in};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
+}
+
+static scree_status journey_open(journey *j, size_t most, scree_error *error)
+{
+    const size_t size = (size_t)scree_comm_size();
+    *j = (journey){NULL};
+    scree_status status = scree_allocate(&j->index, most + 1, sizeof *j->index, error);
+    if (!status) status = scree_allocate(&j->send, size, sizeof *j->send, error);
+    if (!status) status = scree_allocate(&j->receive, size, sizeof *j->receive, error);
+    return status;
+}
+
+/// Element k goes to the processes ends[2 k] and ends[2 k + 1], which may be one, or this one, for which it stays.
+static void journey_plan(journey *j, const int32_t *ends, size_t count)
+{
+    const int here = scree_comm_rank(), size = scree_comm_size();
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t k = 0; k < 2 * count; k++) {
+            const int r = ends[k];
+            if (r == here || (k % 2 && ends[k - 1] == r)) continue;
+            if (pass == 0)
+                j->send[r]++;
+            else
+                j->index[j->send[r]++] = (uint32_t)(k / 2);
+        }
+        // Counts become places, then ends of places become counts again.
+        size_t sum = 0, before = 0;
+        for (int r = 0; r < size; r++) {
+            const size_t value = j->send[r];
+            j->send[r] = pass == 0 ? sum : value - before;
+            sum += value;
+            before = value;
+        }
+        if (pass == 0) j->leaving = sum;
+    }
+}
+
+static void journey_trade(journey *j)
+{
+    uint64_t mine[SCREE_PROCESSES], theirs[SCREE_PROCESSES];
+    for (int r = 0; r < scree_comm_size(); r++) mine[r] = j->send[r];
+    scree_comm_trade(mine, theirs, 1);
+    j->arriving = 0;
+    for (int r = 0; r < scree_comm_size(); r++) j->arriving += j->receive[r] = theirs[r];
+}
+
+/// Sends what leaves, array by array, and receives what comes.
+static scree_status journey_make(journey *j, const scree_body_array *list, size_t arrays, scree_error *error)
+{
+    unsigned char *out;
+    size_t widest = 1, bytes = 1;
+    for (size_t k = 0; k < arrays; k++) {
+        widest = list[k].size > widest ? list[k].size : widest;
+        bytes += list[k].size * j->arriving;
+    }
+    scree_status status = scree_allocate(&j->in, bytes, 1, error);
+    if (!status) status = scree_allocate(&out, widest * j->leaving + 1, 1, error);
+    if (status) return status;
+    unsigned char *in = j->in;
+    for (size_t k = 0; k < arrays; in += list[k++].size * j->arriving) {
+        const size_t size = list[k].size;
+        const unsigned char *array = *(unsigned char **)list[k].pointer;
+        for (size_t e = 0; e < j->leaving; e++) memcpy(out + e * size, array + j->index[e] * size, size);
+        (void)scree_comm_deliver(out, j->send, in, j->receive, size);
+    }
+    scree_release(&out);
+    return SCREE_OK;
+}
+
+/// Puts what has come into the elements from `at` on.
+static void journey_end(const journey *j, const scree_body_array *list, size_t arrays, size_t at)
+{
+    const unsigned char *in = j->in;
+    for (size_t k = 0; k < arrays; in += list[k++].size * j->arriving)
+        memcpy(*(unsigned char **)list[k].pointer + at * list[k].size, in, list[k].size * j->arriving);
+}
+
+/// Tells the ghosts of the last list where their bodies go, and makes them known by their ids.
+static scree_status tell_ghosts(scree_state *state, scree_work *work, int32_t *to, scree_error *error)
+{
+    const scree_parts *parts = work->parts;
+    const size_t first = state->count + work->ghosts.count - work->ghosts.away;
+    int32_t *out;
+    scree_status status = scree_allocate(&out, parts->sent_count + 1, sizeof *out, error);
+    if (status) return status;
+    for (size_t k = 0; k < parts->sent_count; k++) out[k] = to[parts->sent[k].parent];
+    (void)scree_comm_deliver(out, parts->send, to + first, parts->receive, sizeof *out);
+    for (size_t k = 0; k < work->ghosts.away; k++) state->row_of_id[state->id[first + k]] = (uint32_t)(first + k);
+    scree_release(&out);
+    return SCREE_OK;
+}
+
+static void forget_away(scree_state *state, const scree_work *work)
+{
+    const size_t first = state->count + work->ghosts.count - work->ghosts.away;
+    for (size_t k = 0; k < work->ghosts.away; k++) state->row_of_id[state->id[first + k]] = SCREE_NO_ROW;
+}
+
+static scree_status move_contacts(scree_state *state, scree_work *work, const int32_t *to, scree_error *error)
+{
+    scree_body_array list[4];
+    size_t arrays = 0;
+    int32_t *ends = NULL;
+    journey j;
+    scree_status status = list_contacts(state, work, state->contact_count, list, &arrays, error);
+    if (!status) status = scree_allocate(&ends, 2 * state->contact_count + 1, sizeof *ends, error);
+    if (!status) status = journey_open(&j, 2 * state->contact_count, error);
+    if (status) return status;
+    for (size_t k = 0; k < state->contact_count; k++) {
+        int end[2];
+        ends_of(state, to, k, end);
+        ends[2 * k] = end[0];
+        ends[2 * k + 1] = end[1];
+    }
+    journey_plan(&j, ends, state->contact_count);
+    journey_trade(&j);
+    status = journey_make(&j, list, arrays, error);
+    if (!status) {
+        keep_contacts(state, list, arrays, to);
+        status = list_contacts(state, work, state->contact_count + j.arriving, list, &arrays, error);
+    }
+    if (!status) {
+        journey_end(&j, list, arrays, state->contact_count);
+        state->contact_count += j.arriving;
+    }
+    journey_destroy(&j);
+    scree_release(&ends);
+    return status;
+}
+
+static scree_status move_rows(scree_state *state, scree_work *work, const int32_t *to, scree_error *error)
+{
+    scree_body_array list[SCREE_BODY_ARRAYS + 1];
+    int32_t *ends = NULL;
+    journey j;
+    scree_status status = reserve_rows(state, work, state->count, error);
+    const size_t arrays = list_arrays(state, work, list);
+    if (!status) status = scree_allocate(&ends, 2 * state->count + 1, sizeof *ends, error);
+    if (!status) status = journey_open(&j, state->count, error);
+    if (status) return status;
+    for (size_t k = 0; k < state->count; k++) ends[2 * k] = ends[2 * k + 1] = to[k];
+    journey_plan(&j, ends, state->count);
+    journey_trade(&j);
+    status = journey_make(&j, list, arrays, error);
+    if (!status) {
+        work->parts->moved += j.leaving;
+        keep_rows(state, list, arrays, to);
+        status = reserve_rows(state, work, state->count + j.arriving, error);
+    }
+    if (!status) {
+        journey_end(&j, list, arrays, state->count);
+        state->count += j.arriving;
+        number_rows(state);
+    }
+    journey_destroy(&j);
+    scree_release(&ends);
+    return status;
+}
+
+scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_parts *parts = work->parts;
+    int32_t *to = NULL;
+    scree_status status = SCREE_OK;
+    if (out_of_balance(state)) status = cut(state, parts, 0, state->count, error);
+    if (!status) status = scree_allocate(&to, scree_row_count(state, work) + 1, sizeof *to, error);
+    if (status) return status;
+    choose(state, parts, to);
+    status = tell_ghosts(state, work, to, error);
+    if (!status) status = move_contacts(state, work, to, error);
+    forget_away(state, work);
+    if (!status) status = move_rows(state, work, to, error);
+    forget_ghosts(work);
+    // Rows have moved into the places of others.
+    work->clear_rows = 0;
+    scree_release(&to);
+    return status;
+}
+
+// ---- whole and part ----------------------------------------------------------------------------------------------
+
+scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_body_array list[SCREE_BODY_ARRAYS], contacts[4];
+    int32_t *to = NULL;
+    size_t some = 0;
+    const size_t size = (size_t)scree_comm_size(), here = (size_t)scree_comm_rank();
+    scree_status status = open_parts(work, error);
+    if (!status) status = scree_allocate(&to, state->count + 1, sizeof *to, error);
+    if (!status) status = cut(state, work->parts, state->count * here / size, state->count * (here + 1) / size, error);
+    if (!status) status = list_contacts(state, work, state->contact_count, contacts, &some, error);
+    if (!status) {
+        choose(state, work->parts, to);
+        state->total = state->count;
+        keep_contacts(state, contacts, some, to);
+        keep_rows(state, list, scree_body_arrays(state, list), to);
+        state->part = true;
+        state->changes++;
+        forget_ghosts(work);
+        work->valid = false;
+    }
+    scree_release(&to);
+    return status;
+}
+
+/// Makes the elements of all processes the first ones of each array, which has room for them.
+static scree_status gather_arrays(scree_parts *parts, const scree_body_array *list, size_t arrays, const size_t *counts,
+                                  size_t total, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < arrays && !status; k++) {
+        unsigned char *all, *array = *(unsigned char **)list[k].pointer;
+        status = scree_allocate(&all, total + 1, list[k].size, error);
+        if (status) break;
+        scree_comm_gather(array, all, counts, list[k].size);
+        memcpy(array, all, total * list[k].size);
+        scree_release(&all);
+        parts->gathered += total * list[k].size;
+    }
+    return status;
+}
+
+/// Numbers of bodies and of contacts that each process has; returns the sums in total[2].
+static void count_all(const scree_state *state, size_t *bodies, size_t *contacts, size_t total[2])
+{
+    uint64_t mine[2 * SCREE_PROCESSES], theirs[2 * SCREE_PROCESSES];
+    total[0] = total[1] = 0;
+    for (int r = 0; r < scree_comm_size(); r++) {
+        mine[2 * r] = state->count;
+        mine[2 * r + 1] = state->contact_count;
+    }
+    scree_comm_trade(mine, theirs, 2);
+    for (int r = 0; r < scree_comm_size(); r++) {
+        total[0] += bodies[r] = theirs[2 * r];
+        total[1] += contacts[r] = theirs[2 * r + 1];
+    }
+}
+
+scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_body_array list[SCREE_BODY_ARRAYS], remembered[4];
+    size_t bodies[SCREE_PROCESSES], contacts[SCREE_PROCESSES], total[2], some = 0;
+    scree_parts *parts = work->parts;
+    count_all(state, bodies, contacts, total);
+    scree_status status = scree_store_reserve_bodies(state, total[0], false, error);
+    if (!status) status = gather_arrays(parts, list, scree_body_arrays(state, list), bodies, total[0], error);
+    if (!status) status = list_contacts(state, work, total[1], remembered, &some, error);
+    if (!status) status = gather_arrays(parts, remembered, some, contacts, total[1], error);
+    if (status) return status;
+    state->count = total[0];
+    state->contact_count = total[1];
+    number_rows(state);
+    state->part = false;
+    state->changes++;
+    forget_ghosts(work);
+    work->valid = false;
+    work->clear_rows = 0;
+    parts->gathers++;
+    return SCREE_OK;
+}

@@ -1,0 +1,70 @@
+/// The sample in parts: each process has some of the bodies, and ghosts of those of others that may touch them.
+///
+/// A state is whole or a part (state->part). Whole, it is the same in all processes: stages begin with it, measures and
+/// files read it, and each process finds the same in it. A part, it holds the bodies of this process, in the first
+/// rows; the step knows no other. What is not about bodies (walls, cells, ledger, stage) is the same in all parts,
+/// since all that it follows from is joined (comm/comm.h).
+///
+/// Which process has a body does not show in the bits. A pair of bodies of two processes is evaluated by one of them:
+/// without a shift by that of the lower number, across a face of a periodic cell by that of the body which is met by an
+/// image with a positive shift, as one process does it. So positions of a pair are the same doubles wherever it is
+/// evaluated, and integer sums do the rest.
+///
+/// What a contact remembers travels with both of its bodies, as nobody knows yet which process will evaluate it.
+#ifndef SCREE_COMM_PARTS_H
+#define SCREE_COMM_PARTS_H
+
+#include "comm/message.h"
+
+typedef struct scree_parts {
+    scree_ghost *sent; ///< ghosts of own bodies that other processes have, in the order of these
+    int32_t *sent_to;  ///< while they are chosen: the process of each
+    size_t sent_count, sent_capacity, to_capacity;
+    size_t *send, *receive; ///< of each process: ghosts that it has of ours, that we have of its bodies
+    unsigned char *out, *in;
+    size_t out_capacity, in_capacity;
+    uint64_t seed; ///< not 0: bodies go to processes at random, from this seed (tests)
+    uint64_t draws;
+    // counted since the begin of the process
+    uint64_t gathers, gathered; ///< states put together, and their bytes
+    uint64_t cuts, lists;       ///< of space; lists with ghosts
+    uint64_t moved;             ///< bodies that have changed their process
+    uint64_t steps, bytes;      ///< messages of steps: how often, and what this process sent
+    uint64_t ghosts;            ///< from other processes, sum over the lists
+} scree_parts;
+
+/// Bodies of the fullest part over their mean from which on space is cut anew when a list is made.
+#define SCREE_PARTS_IMBALANCE 1.1
+
+/// From a whole state to a part, whose contacts have been saved (scree_contacts_save); the list has to be made anew.
+/// All processes call it. Errors: memory.
+scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Back to a whole state, in all processes. Contacts have been saved, and are in the state behind it. Errors: memory.
+scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Before a list is made anew: bodies go to the processes in whose parts they lie, with all that fields declare and
+/// what their contacts remember, which is in the state. Errors: memory.
+scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Range of the positions of the bodies of each process [m]: lowest x, y, z, then highest. `box`: one a process.
+void scree_parts_boxes(const scree_state *state, double (*box)[6]);
+
+/// Another process will have this ghost; scree_parts_link tells it. Errors: memory.
+scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost,
+                               scree_error *error) SCREE_MUST_USE;
+
+/// All ghosts have been offered: puts those that others offered behind the own ones of the list. Errors: memory.
+scree_status scree_parts_link(const scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Room for the messages of the present ghosts. Errors: memory.
+scree_status scree_parts_reserve_messages(const scree_state *state, scree_work *work,
+                                          scree_error *error) SCREE_MUST_USE;
+
+/// What ghosts elsewhere are told; what they have collected. All processes call them.
+void scree_parts_send(scree_state *state, scree_work *work, scree_message_kind kind, const scree_message_shift *shift);
+void scree_parts_add_back(scree_state *state, scree_work *work);
+
+void scree_parts_destroy(scree_work *work);
+
+#endif

@@ -1,0 +1,170 @@
+/// What can be spread over processes says so in its module (`spreads`). All modules that a case chooses are looked at
+/// before the run, and those that are in use in the stages as far as the case alone tells; what is in use in a stage
+/// that has begun is looked at again before its first step. So a new module is refused until somebody has thought about
+/// it.
+#include "run/ranks.h"
+
+#include "comm/comm.h"
+#include "comm/parts.h"
+#include "run/step.h"
+#include "search/neighbours.h"
+#include "state/periodic.h"
+
+#include <math.h>
+
+bool scree_ranks_write(void)
+{
+    return scree_comm_rank() == 0;
+}
+
+// ---- what cannot be spread ---------------------------------------------------------------------------------------
+
+static scree_status refuse(const char *what, const char *name, scree_error *error)
+{
+    return scree_error_set(error, SCREE_ERROR_INPUT,
+                           "%s '%s' cannot be spread over several processes yet: start one process, with --threads N "
+                           "for N cores",
+                           what, name);
+}
+
+static scree_status check_module(int slot, const char *what, scree_error *error)
+{
+    return scree_modules[slot]->spreads ? SCREE_OK : refuse(what, scree_modules[slot]->name, error);
+}
+
+/// Of the stage that the state is in: modules with something to do, and the boundary.
+static scree_status check_stage(scree_simulation *s, bool begun, scree_error *error)
+{
+    const scree_config_stage *stage = &s->model.stages[s->state.stage.index];
+    const scree_context context = scree_step_context(s);
+    scree_status status = check_module(stage->kind, "stage", error);
+    if (scree_modules[stage->kind]->numbers->instant || scree_modules[stage->kind]->numbers->places) return status;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++) {
+        const scree_module *module = scree_modules[m];
+        if (module->boundary == s->boundary) status = check_module(m, "boundary", error);
+        const bool acts = module->pass_count > 0 || module->bound;
+        if (!status && acts && !module->spreads && (!module->in_use || module->in_use(&context)))
+            status = check_module(m, "what acts in a stage:", error);
+    }
+    const bool repeats = begun ? scree_cell(&s->state)->directions != 0 : s->model.periodic != 0;
+    if (!status && !s->boundary->open && !repeats)
+        status = refuse("the Delaunay boundary of the sample, which is kept in a stage", stage->name, error);
+    return status;
+}
+
+static scree_status check_stages(scree_simulation *s, scree_error *error)
+{
+    const scree_boundary *boundary = s->boundary;
+    const int64_t index = s->state.stage.index;
+    scree_status status = SCREE_OK;
+    for (int64_t k = 0; k < s->model.stage_count && !status; k++) {
+        s->state.stage.index = k;
+        s->boundary = scree_model_boundary_of(&s->model, k);
+        status = check_stage(s, false, error);
+    }
+    s->state.stage.index = index;
+    s->boundary = boundary;
+    return status;
+}
+
+scree_status scree_ranks_check(scree_simulation *s, scree_error *error)
+{
+    const scree_model *model = &s->model;
+    if (scree_comm_size() == 1) return SCREE_OK;
+    scree_status status = check_module(model->scheme, "scheme", error);
+    for (int k = 0; k < scree_model_law_count(model) && !status; k++)
+        status = check_module(model->laws[k].law, "contact law", error);
+    if (!status && scree_model_holds(model)) status = check_module(model->persistent.law.law, "bonds by", error);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        for (int k = 0; k < model->species_count && !status; k++)
+            if (scree_modules[m]->shape && scree_modules[m]->shape == model->species[k].shape)
+                status = check_module(m, "particles of shape", error);
+    for (int64_t k = 0; k < model->load_count && !status; k++)
+        status = check_module(model->loads[k].kind, "load", error);
+    if (!status && model->source_count > 0) status = refuse("source", model->sources[0].name, error);
+    return status ? status : check_stages(s, error);
+}
+
+// ---- all processes do the same -----------------------------------------------------------------------------------
+
+/// Whether all processes have the same number.
+static bool all_have(uint64_t number)
+{
+    double half[4] = {(double)(number >> 32), (double)(uint32_t)number};
+    half[2] = -half[0];
+    half[3] = -half[1];
+    scree_comm_maximum(NULL, half, 4);
+    return half[0] == -half[2] && half[1] == -half[3];
+}
+
+static uint64_t checksum_of_text(const char *text)
+{
+    uint64_t c = UINT64_C(0xcbf29ce484222325);
+    for (; *text; text++) c = (c ^ (uint64_t)(unsigned char)*text) * UINT64_C(0x100000001b3);
+    return c;
+}
+
+scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree_error *error)
+{
+    status = scree_comm_agree(status, error);
+    if (status) return status;
+    if (!all_have(checksum_of_text(scree_version())))
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "the processes are of different versions of Scree: this one is %s", scree_version());
+    if (!all_have(case_checksum))
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "the processes have read different cases: see to it that all find the same files");
+    return SCREE_OK;
+}
+
+double scree_ranks_most(double own)
+{
+    scree_comm_maximum(NULL, &own, 1);
+    return own;
+}
+
+void scree_ranks_fail(const scree_run_options *options, const scree_error *error)
+{
+    char line[sizeof error->message + 64];
+    if (scree_comm_size() == 1) return;
+    (void)snprintf(line, sizeof line, "process %d: %s; all processes end", scree_comm_rank(), error->message);
+    if (options->message) options->message(options->user, SCREE_LOG_WARNING, line);
+    scree_comm_stop(error->status);
+}
+
+// ---- whole and part ----------------------------------------------------------------------------------------------
+
+scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
+{
+    scree_state *state = &s->state;
+    if (scree_comm_size() == 1 || state->part) return SCREE_OK;
+    scree_status status = check_stage(s, true, error);
+    if (!status && s->work.valid) status = scree_contacts_save(state, &s->work, error);
+    if (!status && !s->work.parts && !all_have(scree_state_checksum(&s->stage_model, state)))
+        status = scree_error_set(error, SCREE_ERROR_INPUT,
+                                 "the processes have made different samples of the same case: their machines or "
+                                 "libraries differ");
+    return status ? status : scree_parts_spread(state, &s->work, error);
+}
+
+scree_status scree_ranks_gather(scree_simulation *s, scree_error *error)
+{
+    if (!s->state.part) return SCREE_OK;
+    scree_status status = scree_contacts_save(&s->state, &s->work, error);
+    if (!status) status = scree_parts_gather(&s->state, &s->work, error);
+    return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+void scree_ranks_log(const scree_simulation *s, scree_log *log)
+{
+    const scree_parts *parts = s->work.parts;
+    if (!parts) return;
+    const double lists = fmax(1, (double)parts->lists), messages = fmax(1, (double)parts->steps);
+    scree_log_write(log, SCREE_LOG_INFO,
+                    "process 0 of %d: %.0f bodies of others near its own, %.0f bytes sent in an exchange; %llu lists, "
+                    "%llu cuts of space, %llu bodies sent to others; the whole state put together %llu times, %.3g MB "
+                    "in all",
+                    scree_comm_size(), (double)parts->ghosts / lists, (double)parts->bytes / messages,
+                    (unsigned long long)parts->lists, (unsigned long long)parts->cuts, (unsigned long long)parts->moved,
+                    (unsigned long long)parts->gathers, 1e-6 * (double)parts->gathered);
+}

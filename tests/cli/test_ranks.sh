@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# One run on several processes: the same bits for any number of them, in parts of space and in parts at random; what
+# cannot be spread is refused by name; a process that is killed ends all, and any number goes on from the checkpoint.
+# Skipped without MPI.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+program=$(dirname "$scree")/tests/check_ranks
+command -v mpirun >/dev/null || finish 'skipped: there is no mpirun'
+[ -x "$program" ] || finish "skipped: there is no $program (target check_ranks)"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+several() { mpirun --oversubscribe -n "$1" "$program" "$2" 2>&1 </dev/null; }
+[ "$(several 2 1)" = 'ranks 2' ] || { several 2 1 | grep -q '^ranks 1' && finish 'skipped: built without MPI (preset mpi)'; }
+for ranks in 1 2 3 4; do
+    for seed in 1 2 3; do
+        expect 0 "^ranks $ranks\$" several $ranks $seed
+        same "$(wc -l <<<"$output")" 1 "lines of $ranks processes, seed $seed: $output"
+    done
+done
+
+# --- cases: periodic and sheared; between plates where it repeats itself along x; in a drum; under a lid with a servo
+materials='materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]'
+discs='particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 150}'
+spheres='particles: {shape: sphere, material: glass, radius_min: 1.3 mm, radius_max: 1.7 mm, count: 120}'
+rest='measure: {samples: 20, cells: no}
+output: {snapshots: 2, figures: no}'
+cat >shear.yaml <<EOF
+scree: 1
+name: shear
+seed: 1
+$materials
+$discs
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: xy}
+stages:
+  - {stage: prepare, method: gas, solid_fraction: 45 %}
+  - {stage: confine, pressure: 2 kPa, unbalanced_limit: 0.2}
+  - {stage: deform, velocity_gradient: {xy: 20 1/s}, stress: {yy: 2 kPa}, strain: 10 %}
+$rest
+EOF
+cat >layer.yaml <<EOF
+scree: 1
+name: layer
+seed: 2
+materials: [{name: glass, young_modulus: 1 MPa, density: 2500 kg/m3, friction: 0.5}]
+$discs
+contact: {law: hertz_brilliantov}
+integrator: {scheme: two_timescales}
+boundary: {periodic: x}
+stages:
+  - {stage: prepare, method: gas, aspect_ratio: 0.5, solid_fraction: 45 %}
+  - {stage: confine, pressure: 1 kPa, unbalanced_limit: 0.9}
+  - {stage: compress, rate: 5 1/s, strain: 0.05 %}
+$rest
+EOF
+cat >drum.yaml <<EOF
+scree: 1
+name: drum
+dimension: 3
+seed: 3
+gravity: [0, 0, -9.81]
+$materials
+$spheres
+contact: {law: linear}
+integrator: {scheme: position_verlet, step_fraction: 0.2}
+walls:
+  - {shape: cylinder, name: drum, start: [15 mm, -1 mm, 15 mm], end: [15 mm, 9 mm, 15 mm], radius: 23 mm, side: inside,
+     ends: closed, spin: [0, 6 rad/s, 0], centre: [15 mm, 0, 15 mm]}
+stages:
+  - {stage: prepare, method: gas, width: 30 mm, depth: 8 mm, solid_fraction: 25 %}
+  - {stage: relax, name: turn, walls: move, duration: 0.03 s}
+$rest
+EOF
+cat >lid.yaml <<EOF
+scree: 1
+name: lid
+seed: 4
+gravity: [0, -9.81]
+$materials
+$discs
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+loads: [{load: background_damping, translation: 0.2, rotation: 0.2}]
+walls:
+  - {shape: plane, name: left, point: [0, 0], normal: [1, 0]}
+  - {shape: plane, name: right, point: [30 mm, 0], normal: [-1, 0]}
+  - {shape: plane, name: floor, point: [0, 0], normal: [0, 1], motion: vibration, amplitude: [0, 0.3 mm], frequency: 100 1/s}
+  - {shape: box, name: lid, side: outside, lower: [0.1 mm, 45 mm], upper: [29.9 mm, 50 mm], friction: 0, motion: servo,
+     direction: [0, -1], force: 1 N, servo_gain: 5, servo_velocity: 0.5 m/s}
+stages:
+  - {stage: prepare, method: gas, width: 30 mm, solid_fraction: 40 %}
+  - {stage: relax, name: settle, duration: 0.05 s, walls: stand}
+  - {stage: relax, name: shake, duration: 0.05 s}
+$rest
+EOF
+on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
+checksum() { "$scree" get "$1" state_checksum; }
+for name in shear layer drum lid; do
+    checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
+    for ranks in 2 3 4; do
+        expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
+        same "$(checksum many)" "$(checksum one-$name)" "$name on $ranks processes"
+        cmp -s many/series.csv one-$name/series.csv || complain "series.csv of $name on $ranks processes differs"
+        grep -q "process 0 of $ranks: " many/log.txt || complain "$ranks processes did not compute $name together"
+    done
+    expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
+    same "$(checksum many)" "$(checksum one-$name)" "$name in parts at random"
+    grep -qE ' [1-9][0-9]* bodies sent' many/log.txt || complain "no body of $name went to another process"
+done
+
+# --- more processes than bodies in some of them
+expect 0 '|warning' on 6 shear.yaml -o few -f --set particles.count=16 --threads 1
+expect 0 '|warning' "$scree" run shear.yaml -o few-one --set particles.count=16 --threads 1 --quiet
+same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
+
+# --- what cannot be spread
+refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@:2}"; same "$(grep -c 'cannot be spread' <<<"$output")" 1 "one message: $output"; [ -e no ] && complain "a refused run has made its folder"; }
+refused "boundary 'pressure'" biaxial --quick -o no
+refused "stage 'collide'" restitution -o no
+refused "law 'polygon_overlap'" pile-relax --quick -o no
+refused "load 'prescribed'" layer-shear --quick -o no
+refused "source" pour-discs --quick -o no
+expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
+
+# --- a process dies; the checkpoint is whole, and any number of processes goes on from it
+mpirun --oversubscribe -n 4 "$scree" run drum.yaml -o killed --set output.checkpoint_steps=200 --quiet --threads 1 >killed.txt 2>&1 </dev/null &
+job=$!
+for ((i = 0; i < 600; i++)); do [ "$(find killed/parts -name '*checkpoint*' 2>/dev/null | wc -l)" -ge 1 ] && break; sleep 0.1; done
+victim=$(pgrep -P $job | tail -n 1)
+kill -9 "$victim"
+wait $job && complain 'mpirun went on without one of its processes'
+cp -r killed killed-1
+cp -r killed killed-3
+expect 0 '|warning' "$scree" run --restart killed-1 --quiet
+same "$(checksum killed-1)" "$(checksum one-drum)" 'restart on one process'
+expect 0 '|warning' on 3 --restart killed-3
+same "$(checksum killed-3)" "$(checksum one-drum)" 'restart on three processes'
+finish

@@ -1,0 +1,101 @@
+/// check_ranks SEED: terms of very different size, dealt out at random among the processes of mpirun (some get none),
+/// give the bits that one process finds in all of them. Prints "ranks N" once; each difference is a line, and status 1.
+#include "comm/comm.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { TERMS = 5000, SUMS = 3 };
+
+static int failures;
+
+static void same(const char *what, double got, double wanted)
+{
+    if (memcmp(&got, &wanted, sizeof got) == 0 || (got != got && wanted != wanted)) return;
+    printf("process %d: %s is %.17g, of one process %.17g\n", scree_comm_rank(), what, got, wanted);
+    failures++;
+}
+
+/// The numbers of a generator that all processes share.
+static uint64_t next(uint64_t *seed)
+{
+    *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return *seed >> 20;
+}
+
+static double next_term(uint64_t *seed)
+{
+    const double sign = next(seed) % 2 ? 1 : -1;
+    return sign * ldexp((double)next(seed), (int)(next(seed) % 120) - 100);
+}
+
+/// own: the terms of this process, of all terms; the last process is given none. Returns how many.
+static size_t deal(uint64_t *seed, const double *all, double *own)
+{
+    const int most = scree_comm_size() > 2 ? scree_comm_size() - 1 : scree_comm_size();
+    size_t count = 0;
+    for (size_t k = 0; k < TERMS; k++)
+        if ((int)(next(seed) % (uint64_t)most) == scree_comm_rank()) own[count++] = all[k];
+    return count;
+}
+
+static void check_sums(const double *all, const double *own, size_t count)
+{
+    scree_integer_sum part[SUMS] = {0}, whole[SUMS] = {0};
+    while (scree_comm_sum_next(NULL, part, SUMS))
+        for (size_t k = 0; k < count; k++)
+            for (int s = 0; s < SUMS; s++) scree_integer_sum_add(&part[s], own[k] * (s - 1.5));
+    while (scree_integer_sum_next(whole, SUMS))
+        for (size_t k = 0; k < TERMS; k++)
+            for (int s = 0; s < SUMS; s++) scree_integer_sum_add(&whole[s], all[k] * (s - 1.5));
+    for (int s = 0; s < SUMS; s++)
+        same("a sum in two passes", scree_integer_sum_total(&part[s]), scree_integer_sum_total(&whole[s]));
+    same("a sum of an array", scree_comm_sum_of(NULL, own, count), scree_integer_sum_of(all, TERMS));
+}
+
+/// Tensors, maxima and counts.
+static void check_others(const double *all, const double *own, size_t count)
+{
+    scree_wide_sum part[2] = {0}, whole = {0};
+    double got[9], wanted[9], largest = -INFINITY, of_all = -INFINITY;
+    int64_t number[40] = {0};
+    for (size_t k = 0; k < count; k++) {
+        for (int i = 0; i < 9; i++) part[k % 2].value[i] += ((scree_wide_integer)(own[k] * 0x1p20) << 50) * (i - 4);
+        largest = fmax(largest, own[k]);
+        number[k % 40]++;
+    }
+    for (size_t k = 0; k < TERMS; k++) {
+        for (int i = 0; i < 9; i++) whole.value[i] += ((scree_wide_integer)(all[k] * 0x1p20) << 50) * (i - 4);
+        of_all = fmax(of_all, all[k]);
+    }
+    scree_comm_wide_total(NULL, part, 2, 0x1p-70, got);
+    scree_wide_total(&whole, 1, 0x1p-70, wanted);
+    for (int i = 0; i < 9; i++) same("a tensor", got[i], wanted[i]);
+    scree_comm_add(NULL, number, 40);
+    int64_t total = 0;
+    for (int k = 0; k < 40; k++) total += number[k];
+    same("a count", (double)total, TERMS);
+    double values[3] = {largest, -(double)scree_comm_rank(), scree_comm_rank() == 0 ? NAN : 1};
+    scree_comm_maximum(NULL, values, 3);
+    same("a maximum", values[0], of_all);
+    same("a maximum of numbers that are not positive", values[1] + 0.0, 0);
+    same("a maximum with NaN", values[2], NAN);
+}
+
+int main(int argc, char **argv)
+{
+    static double all[TERMS], own[TERMS];
+    scree_error error;
+    uint64_t seed = argc > 1 ? strtoull(argv[1], NULL, 10) : 1;
+    if (scree_comm_join(&error)) return 1;
+    for (size_t k = 0; k < TERMS; k++) all[k] = next_term(&seed);
+    size_t count = deal(&seed, all, own);
+    if (scree_comm_rank() == 0) printf("ranks %d\n", scree_comm_size());
+    check_sums(all, own, count);
+    check_others(all, own, count);
+    // One term that is not finite, of one process, spoils the sum of all.
+    if (count > 0 && scree_comm_rank() == 0) own[0] = NAN;
+    same("a sum with NaN", scree_comm_sum_of(NULL, own, count), NAN);
+    scree_comm_leave();
+    return failures > 0;
+}
