@@ -190,12 +190,12 @@ typedef struct scree_time_spent {
 
 struct scree_state {
     int dimension;              ///< 2 or 3
+    bool part;                  ///< the others of `total` bodies are with other processes (comm/parts.h) (derived)
     size_t count;               ///< bodies that are here
     size_t next_id;             ///< ids that were ever given: 0 .. next_id - 1
     size_t id_count;            ///< of row_of_id: ids from it on are of no body that is here (derived)
     size_t marked[SCREE_MARKS]; ///< bodies with each mark (derived)
     uint64_t changes;           ///< appends and removals in this process: lists of rows made before are void (derived)
-    bool part;                  ///< the others of `total` bodies are with other processes (comm/parts.h) (derived)
     size_t total;               ///< of a part: bodies of all processes (derived)
     uint64_t step;            ///< time of the run in ticks; time = stage.first_time + (step - stage.first_step) * tick
     uint64_t evaluations;     ///< steps taken since the start of the run, one force evaluation each

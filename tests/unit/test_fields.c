@@ -148,15 +148,14 @@ static void no_member_of_the_state_is_missing(void **unused)
 {
     (void)unused;
     static unsigned char covered[sizeof(scree_state)];
-    memset(covered, 1, offsetof(scree_state, count)); // the dimension is of the case
+    memset(covered, 1, offsetof(scree_state, count)); // the dimension is of the case, `part` of comm/parts.c
     EXCEPT(count);                                    // lengths and the inverse of `id` follow from the arrays
     EXCEPT(row_of_id);
     EXCEPT(contact_count);
     EXCEPT(contact_capacity);
     EXCEPT(marked); // counts of `mark`
     EXCEPT(changes);
-    EXCEPT(part); // whether it is one, and of how many bodies, is told by comm/parts.c
-    EXCEPT(total);
+    EXCEPT(total); // of a part, told by comm/parts.c
     EXCEPT(body_capacity);
     EXCEPT(row_capacity);
     EXCEPT(id_count);
