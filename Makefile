@@ -60,7 +60,7 @@ install: all ## into PREFIX (default /usr/local)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
 clean: ## remove what was built
-	@rm -rf build build-dev build-asan build-tsan build-clang build-site out-demo
+	@rm -rf build build-dev build-asan build-tsan build-clang build-mpi build-site out-demo
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 18

@@ -23,6 +23,16 @@ void scree_parts_boxes(const scree_state *state, double (*box)[6])
     scree_comm_gather(own, box, counts, sizeof own);
 }
 
+size_t scree_parts_trade(const size_t *send, size_t *receive)
+{
+    uint64_t mine[SCREE_PROCESSES], theirs[SCREE_PROCESSES];
+    size_t sum = 0;
+    for (int r = 0; r < scree_comm_size(); r++) mine[r] = send[r];
+    scree_comm_trade(mine, theirs, 1);
+    for (int r = 0; r < scree_comm_size(); r++) sum += receive[r] = theirs[r];
+    return sum;
+}
+
 scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost, scree_error *error)
 {
     scree_parts *parts = work->parts;
@@ -72,13 +82,9 @@ scree_status scree_parts_link(const scree_state *state, scree_work *work, scree_
 {
     scree_parts *parts = work->parts;
     scree_ghost_list *list = &work->ghosts;
-    uint64_t mine[SCREE_PROCESSES], theirs[SCREE_PROCESSES];
     scree_status status = sort_sent(parts, error);
     if (status) return status;
-    for (int r = 0; r < scree_comm_size(); r++) mine[r] = parts->send[r];
-    scree_comm_trade(mine, theirs, 1);
-    size_t away = 0;
-    for (int r = 0; r < scree_comm_size(); r++) away += parts->receive[r] = theirs[r];
+    const size_t away = scree_parts_trade(parts->send, parts->receive);
     if ((status = reserve_ghosts(list, list->count + away, error))) return status;
     (void)scree_comm_deliver(parts->sent, parts->send, list->ghost + list->count, parts->receive, sizeof *list->ghost);
     for (size_t k = 0; k < away; k++, list->count++)

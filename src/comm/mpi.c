@@ -135,7 +135,7 @@ void scree_comm_add(const scree_state *state, int64_t *values, size_t count)
 {
     if (!is_joined(state)) return;
     // Modulo 2^64, as integers without a sign.
-    (void)MPI_Allreduce(MPI_IN_PLACE, values, (int)count, MPI_UINT64_T, MPI_SUM, together);
+    add_all((uint64_t *)values, count);
 }
 
 /// Joins what the processes have found of up to BLOCK / (LIMBS + 1) sums in the pass that ends, which is the same of
@@ -204,7 +204,7 @@ void scree_comm_trade(const uint64_t *mine, uint64_t *theirs, size_t each)
     (void)MPI_Alltoall(mine, (int)each, MPI_UINT64_T, theirs, (int)each, MPI_UINT64_T, together);
 }
 
-/// Elements of `size_of` bytes, so that counts stay within the integers of MPI.
+/// Elements of so many bytes, so that counts stay within the integers of MPI.
 static MPI_Datatype element(size_t bytes)
 {
     MPI_Datatype type;

@@ -8,6 +8,7 @@
 /// that later work has to do without.
 #include "comm/parts.h"
 
+#include "base/checksum.h"
 #include "comm/comm.h"
 #include "state/periodic.h"
 #include "state/store.h"
@@ -49,10 +50,8 @@ static void forget_ghosts(scree_work *work)
 
 static int at_random(const scree_parts *parts, uint32_t id)
 {
-    uint64_t z = id + parts->seed * UINT64_C(0x9e3779b97f4a7c15) + parts->draws * UINT64_C(0xd1342543de82ef95);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return (int)((z ^ z >> 31) % (uint64_t)scree_comm_size());
+    const uint64_t draw = scree_checksum_word(scree_checksum_word(parts->seed, parts->draws), id);
+    return (int)(draw % (uint64_t)scree_comm_size());
 }
 
 /// The process that each row goes to.
@@ -99,6 +98,15 @@ static void number_rows(scree_state *state)
     }
 }
 
+/// Element `from` of each array becomes element `to`.
+static void move_element(const scree_body_array *list, size_t arrays, size_t from, size_t to)
+{
+    for (size_t k = 0; k < arrays && from != to; k++) {
+        unsigned char *array = *(unsigned char **)list[k].pointer;
+        memcpy(array + to * list[k].size, array + from * list[k].size, list[k].size);
+    }
+}
+
 /// Leaves the rows that stay here, in their order.
 static void keep_rows(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
 {
@@ -109,11 +117,7 @@ static void keep_rows(scree_state *state, const scree_body_array *list, size_t a
             state->row_of_id[state->id[row]] = SCREE_NO_ROW;
             continue;
         }
-        for (size_t k = 0; k < arrays && kept != row; k++) {
-            unsigned char *array = *(unsigned char **)list[k].pointer;
-            memcpy(array + kept * list[k].size, array + row * list[k].size, list[k].size);
-        }
-        kept++;
+        move_element(list, arrays, row, kept++);
     }
     state->count = kept;
     number_rows(state);
@@ -179,11 +183,7 @@ static void keep_contacts(scree_state *state, const scree_body_array *list, size
         int end[2];
         ends_of(state, to, c, end);
         if (end[0] != scree_comm_rank() && end[1] != scree_comm_rank()) continue;
-        for (size_t k = 0; k < arrays && kept != c; k++) {
-            unsigned char *array = *(unsigned char **)list[k].pointer;
-            memcpy(array + kept * list[k].size, array + c * list[k].size, list[k].size);
-        }
-        kept++;
+        move_element(list, arrays, c, kept++);
     }
     state->contact_count = kept;
 }
@@ -207,7 +207,6 @@ static void journey_destroy(journey *j)
 static scree_status journey_open(journey *j, size_t most, scree_error *error)
 {
     const size_t size = (size_t)scree_comm_size();
-    *j = (journey){NULL};
     scree_status status = scree_allocate(&j->index, most + 1, sizeof *j->index, error);
     if (!status) status = scree_allocate(&j->send, size, sizeof *j->send, error);
     if (!status) status = scree_allocate(&j->receive, size, sizeof *j->receive, error);
@@ -239,18 +238,12 @@ static void journey_plan(journey *j, const int32_t *ends, size_t count)
     }
 }
 
-static void journey_trade(journey *j)
+/// Sends what leaves of `count` elements, array by array, and receives what comes. `ends`: see journey_plan.
+static scree_status journey_make(journey *j, const int32_t *ends, size_t count, const scree_body_array *list,
+                                 size_t arrays, scree_error *error)
 {
-    uint64_t mine[SCREE_PROCESSES], theirs[SCREE_PROCESSES];
-    for (int r = 0; r < scree_comm_size(); r++) mine[r] = j->send[r];
-    scree_comm_trade(mine, theirs, 1);
-    j->arriving = 0;
-    for (int r = 0; r < scree_comm_size(); r++) j->arriving += j->receive[r] = theirs[r];
-}
-
-/// Sends what leaves, array by array, and receives what comes.
-static scree_status journey_make(journey *j, const scree_body_array *list, size_t arrays, scree_error *error)
-{
+    journey_plan(j, ends, count);
+    j->arriving = scree_parts_trade(j->send, j->receive);
     unsigned char *out;
     size_t widest = 1, bytes = 1;
     for (size_t k = 0; k < arrays; k++) {
@@ -305,20 +298,12 @@ static scree_status move_contacts(scree_state *state, scree_work *work, const in
     scree_body_array list[4];
     size_t arrays = 0;
     int32_t *ends = NULL;
-    journey j;
+    journey j = {NULL};
     scree_status status = list_contacts(state, work, state->contact_count, list, &arrays, error);
     if (!status) status = scree_allocate(&ends, 2 * state->contact_count + 1, sizeof *ends, error);
     if (!status) status = journey_open(&j, 2 * state->contact_count, error);
-    if (status) return status;
-    for (size_t k = 0; k < state->contact_count; k++) {
-        int end[2];
-        ends_of(state, to, k, end);
-        ends[2 * k] = end[0];
-        ends[2 * k + 1] = end[1];
-    }
-    journey_plan(&j, ends, state->contact_count);
-    journey_trade(&j);
-    status = journey_make(&j, list, arrays, error);
+    for (size_t k = 0; k < state->contact_count && !status; k++) ends_of(state, to, k, ends + 2 * k);
+    if (!status) status = journey_make(&j, ends, state->contact_count, list, arrays, error);
     if (!status) {
         keep_contacts(state, list, arrays, to);
         status = list_contacts(state, work, state->contact_count + j.arriving, list, &arrays, error);
@@ -336,16 +321,13 @@ static scree_status move_rows(scree_state *state, scree_work *work, const int32_
 {
     scree_body_array list[SCREE_BODY_ARRAYS + 1];
     int32_t *ends = NULL;
-    journey j;
+    journey j = {NULL};
     scree_status status = reserve_rows(state, work, state->count, error);
     const size_t arrays = list_arrays(state, work, list);
     if (!status) status = scree_allocate(&ends, 2 * state->count + 1, sizeof *ends, error);
     if (!status) status = journey_open(&j, state->count, error);
-    if (status) return status;
-    for (size_t k = 0; k < state->count; k++) ends[2 * k] = ends[2 * k + 1] = to[k];
-    journey_plan(&j, ends, state->count);
-    journey_trade(&j);
-    status = journey_make(&j, list, arrays, error);
+    for (size_t k = 0; k < state->count && !status; k++) ends[2 * k] = ends[2 * k + 1] = to[k];
+    if (!status) status = journey_make(&j, ends, state->count, list, arrays, error);
     if (!status) {
         work->parts->moved += j.leaving;
         keep_rows(state, list, arrays, to);

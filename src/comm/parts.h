@@ -50,6 +50,10 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
 /// Range of the positions of the bodies of each process [m]: lowest x, y, z, then highest. `box`: one a process.
 void scree_parts_boxes(const scree_state *state, double (*box)[6]);
 
+/// receive[r]: how many elements come from process r, which tells send[r'] of them to each r'. Returns their sum. All
+/// processes call it.
+size_t scree_parts_trade(const size_t *send, size_t *receive);
+
 /// Another process will have this ghost; scree_parts_link tells it. Errors: memory.
 scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost,
                                scree_error *error) SCREE_MUST_USE;

@@ -4,6 +4,7 @@
 /// it.
 #include "run/ranks.h"
 
+#include "base/checksum.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
 #include "run/step.h"
@@ -97,18 +98,11 @@ static bool all_have(uint64_t number)
     return half[0] == -half[2] && half[1] == -half[3];
 }
 
-static uint64_t checksum_of_text(const char *text)
-{
-    uint64_t c = UINT64_C(0xcbf29ce484222325);
-    for (; *text; text++) c = (c ^ (uint64_t)(unsigned char)*text) * UINT64_C(0x100000001b3);
-    return c;
-}
-
 scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree_error *error)
 {
     status = scree_comm_agree(status, error);
     if (status) return status;
-    if (!all_have(checksum_of_text(scree_version())))
+    if (!all_have(scree_checksum_bytes(0, scree_version(), strlen(scree_version()))))
         return scree_error_set(error, SCREE_ERROR_INPUT,
                                "the processes are of different versions of Scree: this one is %s", scree_version());
     if (!all_have(case_checksum))

@@ -4,12 +4,13 @@
 # Skipped without MPI.
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
+skip() { echo "skipped: $1"; exit 77; }
 program=$(dirname "$scree")/tests/check_ranks
-command -v mpirun >/dev/null || finish 'skipped: there is no mpirun'
-[ -x "$program" ] || finish "skipped: there is no $program (target check_ranks)"
+command -v mpirun >/dev/null || skip 'there is no mpirun'
+[ -x "$program" ] || skip "there is no $program (target check_ranks)"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 several() { mpirun --oversubscribe -n "$1" "$program" "$2" 2>&1 </dev/null; }
-[ "$(several 2 1)" = 'ranks 2' ] || { several 2 1 | grep -q '^ranks 1' && finish 'skipped: built without MPI (preset mpi)'; }
+[ "$(several 2 1)" = 'ranks 2' ] || { several 2 1 | grep -q '^ranks 1' && skip 'built without MPI (preset mpi)'; }
 for ranks in 1 2 3 4; do
     for seed in 1 2 3; do
         expect 0 "^ranks $ranks\$" several $ranks $seed
