@@ -130,10 +130,14 @@ typedef struct scree_report_options {
     size_t statement_count;        ///< 0: all built-in tables
     const char *figures;           ///< folder that figures of ensembles are copied into; NULL: the page has none
     const char *figures_link;      ///< how the page calls that folder
+    const char *former;            ///< text of the page as it was; NULL: none. See scree_report_write
+    size_t *kept;                  ///< raised by the sections that stay from it; may be NULL
 } scree_report_options;
 
 /// Compares what sources state with the results of runs and sweeps, and writes the page as Markdown. Statements whose
-/// runs are not there are `not run`, those whose results a run does not have `not measured`. Errors:
+/// runs are not there are `not run`, those whose results a run does not have `not measured`. A case whose section on
+/// the former page says the same statements word for word, and rests on more realisations (of the full form; if as
+/// many, of the others), keeps that section, with the figures that it names: the page may outlive the runs. Errors:
 /// SCREE_ERROR_INPUT with everything that is wrong with the statements in *problems (may be NULL; to be freed);
 /// SCREE_ERROR_IO.
 SCREE_API scree_status scree_report_write(const scree_report_options *options, FILE *file, scree_problems **problems,

@@ -37,6 +37,22 @@ static void find_figures(const char *path, char folder[PATH_MAX], scree_report_o
     options->figures_link = slash ? slash + 1 : folder;
 }
 
+/// The page as it stands, to be freed; NULL if there is none.
+static char *read_page(const char *path)
+{
+    FILE *file = path ? fopen(path, "re") : NULL;
+    if (!file) return NULL;
+    char *text = NULL;
+    size_t space = 0;
+    // A page has no character 0: one line.
+    if (getdelim(&text, &space, '\0', file) < 0) {
+        free(text);
+        text = NULL;
+    }
+    (void)fclose(file);
+    return text;
+}
+
 scree_status scree_report_to_file(const char *verb, const scree_report_options *given, const char *path)
 {
     scree_report_options with_figures = *given;
@@ -46,6 +62,10 @@ scree_status scree_report_to_file(const char *verb, const scree_report_options *
     scree_error error = {.status = SCREE_ERROR_IO, .message = "out of memory"};
     scree_problems *problems = NULL;
     find_figures(path, folder, &with_figures);
+    size_t kept = 0;
+    char *former = read_page(path);
+    with_figures.former = former;
+    with_figures.kept = &kept;
     FILE *memory = open_memstream(&text, &length);
     if (!memory) return scree_terminal_error(verb, &error);
     scree_status status = scree_report_write(options, memory, &problems, &error);
@@ -56,6 +76,10 @@ scree_status scree_report_to_file(const char *verb, const scree_report_options *
                        strerror(errno));
     }
     if (status) tell(verb, problems, &error);
+    if (!status && kept > 0)
+        (void)fprintf(stderr, "%s: %zu cases stay as %s had them, from more realisations than the folders hold\n", verb,
+                      kept, path);
+    free(former);
     scree_problems_free(problems);
     free(text);
     return status;

@@ -376,7 +376,8 @@ static const scree_verb run_verbs[] = {
         .text = "Writes the reproduction page as Markdown: every statement of the sources with its value, the value "
                 "found with its confidence interval, and whether it agrees, differs or is undecided. The runs are "
                 "looked for in the folders given: folders of runs, of sweeps, or folders that hold such. A statement "
-                "whose runs are not there is `not run`. Statements of your own sources are judged in the same way "
+                "whose runs are not there is `not run`. Where FILE is there and a case rests on more realisations in it "
+                "than the folders hold, its section stays (remove FILE to begin anew). Statements of your own sources are judged in the same way "
                 "(`--statements`).",
         .argument = {{"DIR", "folder of runs or sweeps", SCREE_VALUE_FOLDER, false, true}},
         .option = {{.name = "output",

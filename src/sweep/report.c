@@ -1,8 +1,9 @@
 /// The reproduction page. A statement has a row for each form that was run; the first one that has a result, the full
 /// form before the quick one, is counted. Nothing on the page depends on the day or the machine but the results
 /// themselves.
-#include "sweep/answer.h"
 #include "sweep/ensemble_figures.h"
+#include "sweep/page_row.h"
+#include "sweep/page_section.h"
 #include "sweep/runs_table.h"
 #include "sweep/templates.h"
 
@@ -14,67 +15,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const verdict_names[] = {"agrees", "differs", "undecided", "not measured", "not run"};
-static const char *const class_names[] = {"finding", "check", "beyond"};
 static const char *const form_names[] = {"full", "quick", "run"};
-
-typedef size_t counts[SCREE_CLASSES][SCREE_VERDICTS];
 
 /// A page in the making.
 typedef struct page {
     FILE *file;
     const scree_findings *findings;
-    counts *counts;  ///< of the source
-    FILE *explained; ///< notes below the table of a case
+    const char *source;
+    scree_page_counts *counts; ///< of the source
+    FILE *explained;           ///< notes below the table of a case
     const scree_report_options *options;
     scree_error *error;
 } page;
-
-/// A cell of a table: what would end it is escaped.
-static void put_cell(FILE *file, const char *text)
-{
-    for (const char *c = text; *c; c++) {
-        if (*c == '|') (void)fputc('\\', file);
-        (void)fputc(*c, file);
-    }
-    (void)fputs(" | ", file);
-}
-
-/// The value with its interval, and how many realisations it rests on.
-static void put_value(FILE *file, const scree_statement *s, const scree_answer *a)
-{
-    const scree_interval *e = &a->interval;
-    const char *space = s->unit[0] ? " " : "";
-    if (e->count == 0)
-        (void)fputs("-", file);
-    else if (s->kind == SCREE_CRITERION_HOLDS)
-        (void)fprintf(file, "in %zu", a->successes);
-    else if (isfinite(e->low) && e->count > 1)
-        (void)fprintf(file, "%.4g [%.4g, %.4g]%s%s", e->middle, e->low, e->high, space, s->unit);
-    else if (isfinite(e->middle))
-        (void)fprintf(file, "%.4g%s%s", e->middle, space, s->unit);
-    else
-        (void)fputs("-", file);
-    (void)fprintf(file, " | %zu of %zu | ", e->count, a->planned);
-}
-
-/// One row; `first` has what the statement says, `counted` the verdict in bold.
-static void put_row(FILE *file, const scree_statement *s, const scree_answer *a, const char *form, bool first,
-                    bool counted)
-{
-    (void)fprintf(file, "| %s | ", s->id);
-    put_cell(file, first ? class_names[s->class] : "");
-    put_cell(file, first ? s->text : "");
-    put_cell(file, first ? s->source : "");
-    put_cell(file, first ? s->given : "");
-    put_cell(file, first ? s->criterion : "");
-    put_value(file, s, a);
-    const char *mark = counted ? "**" : "";
-    (void)fprintf(file, "%s%s%s%s%s | %s | ", counted ? "" : "(", mark, verdict_names[a->verdict], mark,
-                  counted ? "" : ")", form);
-    put_cell(file, a->remark);
-    (void)fputs("\n", file);
-}
 
 /// Whether a statement is about a form; a run by itself is taken for what it is.
 static bool concerns(const scree_statement *s, int form)
@@ -111,11 +63,11 @@ static scree_status put_statement(const page *p, const scree_statement_group *gr
         if (first < 0) first = form;
     }
     for (int form = 0; form < SCREE_FINDING_FORMS; form++)
-        if (shown[form]) put_row(p->file, s, &answer[form], form_names[form], form == first, form == counted);
+        if (shown[form])
+            scree_page_row_write(p->file, s, &answer[form], form_names[form], form == first, form == counted);
     static const char *const wanted[] = {"", "quick", "full"};
     scree_answer none = {.verdict = SCREE_NOT_RUN, .interval = {NAN, NAN, NAN, 0}};
-    if (counted < 0) put_row(p->file, s, &none, wanted[s->form], true, true);
-    (*p->counts)[s->class][counted < 0 ? SCREE_NOT_RUN : answer[counted].verdict]++;
+    if (counted < 0) scree_page_row_write(p->file, s, &none, wanted[s->form], true, true);
     put_notes(p, s, answer, shown);
     return SCREE_OK;
 }
@@ -132,27 +84,48 @@ static void put_command(const page *p, const char *name)
         (void)fprintf(p->file, "\nTo be run by `scree reproduce --only %s`.\n", name);
 }
 
-static scree_status put_group(page *p, const scree_statement_group *group)
+/// What the runs in the folders say of a case, as the text of its section but for the figures; to be freed.
+static scree_status write_group(page *p, const scree_statement_group *group, scree_page_section *section, char **text)
 {
     char *notes = NULL;
     size_t length;
-    p->explained = open_memstream(&notes, &length);
-    if (!p->explained) return scree_error_set_memory(p->error, 4096);
-    (void)fprintf(p->file, "\n### %s\n\n%s\n", group->name, group->meaning);
-    put_command(p, group->name);
-    scree_runs_table_write(p->findings, group->name, p->file);
-    (void)fputs("\n| id | kind | statement | where | source | criterion | ours | realisations | verdict | form | "
-                "remark |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-                p->file);
-    scree_status status = SCREE_OK;
+    page part = *p;
+    part.file = open_memstream(text, &section->length);
+    if (!part.file) return scree_error_set_memory(p->error, 4096);
+    part.explained = open_memstream(&notes, &length);
+    scree_status status = part.explained ? SCREE_OK : scree_error_set_memory(p->error, 4096);
+    (void)fprintf(part.file, "\n### %s\n\n%s\n", group->name, group->meaning);
+    put_command(&part, group->name);
+    scree_runs_table_write(p->findings, group->name, part.file);
+    scree_page_row_head(part.file);
     for (int64_t k = 0; k < group->statement_count && !status; k++)
-        status = put_statement(p, group, &group->statements[k]);
-    if (fclose(p->explained) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
-    if (!status && notes[0]) (void)fprintf(p->file, "\nNotes:\n\n%s", notes);
+        status = put_statement(&part, group, &group->statements[k]);
+    if (part.explained && fclose(part.explained) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    if (!status && notes[0]) (void)fprintf(part.file, "\nNotes:\n\n%s", notes);
     free(notes);
+    if (fclose(part.file) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    section->text = *text;
+    return status;
+}
+
+static scree_status put_group(page *p, const scree_statement_group *group)
+{
+    const scree_report_options *options = p->options;
+    const scree_page_section former = scree_page_section_find(options->former, p->source, group->name);
+    scree_page_section section;
+    char *text = NULL;
+    scree_status status = write_group(p, group, &section, &text);
+    const bool stays = !status && scree_page_section_outweighs(&former, &section, group);
+    if (stays) section = former;
+    if (!status) {
+        (void)fwrite(section.text, 1, section.length, p->file);
+        scree_page_section_count(&section, group, p->counts);
+    }
+    free(text);
     if (status) return status;
-    return scree_ensemble_figures_write(p->findings, group->name, p->options->figures, p->options->figures_link,
-                                        p->file, p->error);
+    if (stays) return options->kept ? ++*options->kept, SCREE_OK : SCREE_OK;
+    return scree_ensemble_figures_write(p->findings, group->name, options->figures, options->figures_link, p->file,
+                                        p->error);
 }
 
 static const char introduction[] =
@@ -187,7 +160,9 @@ static const char introduction[] =
     "\n"
     "A *finding* is the source's own, a *check* ours (an identity, a closed form, a stop rule), *beyond* what the\n"
     "source does not have. Each statement counts once: by its full form where that has a result, else by its quick\n"
-    "form; the verdict that counts is in bold, others stand in brackets.\n";
+    "form; the verdict that counts is in bold, others stand in brackets. A case that rests on more realisations on "
+    "the\n"
+    "page that stood here before than in the folders (theirs are gone) keeps its section.\n";
 
 /// Text of a table: a file, or a built-in one.
 static scree_status read_table(const page *p, const char *name, scree_arena *arena, scree_statement_table *table,
@@ -206,7 +181,7 @@ static scree_status read_table(const page *p, const char *name, scree_arena *are
     return status;
 }
 
-static void put_counts(FILE *file, counts *all, const char *begin)
+static void put_counts(FILE *file, scree_page_counts *all, const char *begin)
 {
     const size_t *n = (*all)[SCREE_CLASS_FINDING];
     (void)fprintf(file, "%s**%zu agree, %zu differ, %zu are undecided**, %zu were not measured, %zu were not run. ",
@@ -226,7 +201,7 @@ static scree_status put_source(page *p, const char *name, FILE *head, scree_prob
 {
     scree_arena arena = {0};
     scree_statement_table table;
-    counts mine = {{0}};
+    scree_page_counts mine = {{0}};
     char *text = NULL, begin[400];
     size_t length;
     page part = *p;
@@ -236,6 +211,7 @@ static scree_status put_source(page *p, const char *name, FILE *head, scree_prob
     if (status && scree_problems_count(*problems) == 0) scree_error_set_memory(p->error, 4096);
     part.file = status ? NULL : open_memstream(&text, &length);
     if (!status && !part.file) status = scree_error_set_memory(p->error, 4096);
+    part.source = table.source;
     for (int64_t k = 0; !status && k < table.case_count; k++) status = put_group(&part, &table.cases[k]);
     if (part.file && fclose(part.file) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
     if (!status) {

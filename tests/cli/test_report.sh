@@ -61,10 +61,24 @@ grep -qF 'Mine (Q). Findings: **1 agree, 1 differ, 0 are undecided**, 0 were not
     complain "headline: $(grep Findings page.md)"
 grep -qF 'Beyond the source: 0 agree, 0 differ, 1 undecided,' page.md || complain "headline: $(grep Findings page.md)"
 grep -qF '| mine | full | 1, 2, 4 | 1, 1 | aaa, bbb | 0.2 | 0.81 - 0.83 | 3.5 |' page.md || complain "runs: $(grep '| mine ' page.md)"
-# Without the full form the quick one counts.
+# The page is read back: what it has of more realisations than the folders hold stays, byte for byte, and is counted.
+cp page.md whole.md
+expect 0 '1 cases stay as page.md had them' "$scree" report runs/quick --statements mine.yaml -o page.md
+cmp -s page.md whole.md || complain "a page changed without its runs: $(diff page.md whole.md)"
+expect 0 '' "$scree" report runs --statements mine.yaml -o page.md
+cmp -s page.md whole.md || complain "the same page is not written twice: $(diff page.md whole.md)"
+sed 's/greater than 9/greater than 8/' mine.yaml >other.yaml
+expect 0 '' "$scree" report runs/quick --statements other.yaml -o page.md
+row large | grep -qF '| **undecided** | quick |' || complain "a section with another criterion stayed: $(row large)"
+rm page.md
+# Without the full form the quick one counts, and full runs weigh more than any number of quick ones.
 expect 0 '' "$scree" report runs/quick --statements mine.yaml -o page.md
 row large | grep -qF '| **undecided** | quick |' || complain "quick form alone: $(row large)"
 row more | grep -qF '| **not run** | full |' || complain "no full form: $(row more)"
+expect 0 '' "$scree" report runs/full --statements mine.yaml -o page.md
+row large | grep -qF '| **agrees** | full |' || complain "full form after the quick one: $(row large)"
+expect 0 '1 cases stay' "$scree" report runs/quick --statements mine.yaml -o page.md
+row large | grep -qF '| **agrees** | full |' || complain "quick form after the full one: $(row large)"
 # Several sources; what is built in stays as it is.
 expect 0 '' "$scree" report runs -s mine.yaml --statements padbidri2010 -o page.md
 same "$(grep -c '^## ' page.md)" 2 "sources on the page"

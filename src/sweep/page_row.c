@@ -1,0 +1,119 @@
+/// Rows of the reproduction page. The writer and the reader stand together, so that a page can be read back: it may be
+/// the only record of runs whose folders are gone.
+#include "sweep/page_row.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const verdict_names[] = {"agrees", "differs", "undecided", "not measured", "not run"};
+static const char *const class_names[] = {"finding", "check", "beyond"};
+
+void scree_page_row_head(FILE *file)
+{
+    (void)fputs("\n| id | kind | statement | where | source | criterion | ours | realisations | verdict | form | "
+                "remark |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+                file);
+}
+
+/// A cell of a table: what would end it is escaped.
+static void put_cell(FILE *file, const char *text)
+{
+    for (const char *c = text; *c; c++) {
+        if (*c == '|') (void)fputc('\\', file);
+        (void)fputc(*c, file);
+    }
+    (void)fputs(" | ", file);
+}
+
+/// The cells in front of our value; only the first row of a statement says what it is.
+static void put_statement(FILE *file, const scree_statement *s, bool first)
+{
+    (void)fprintf(file, "| %s | ", s->id);
+    put_cell(file, first ? class_names[s->class] : "");
+    put_cell(file, first ? s->text : "");
+    put_cell(file, first ? s->source : "");
+    put_cell(file, first ? s->given : "");
+    put_cell(file, first ? s->criterion : "");
+}
+
+/// The value with its interval, and how many realisations it rests on.
+static void put_value(FILE *file, const scree_statement *s, const scree_answer *a)
+{
+    const scree_interval *e = &a->interval;
+    const char *space = s->unit[0] ? " " : "";
+    if (e->count == 0)
+        (void)fputs("-", file);
+    else if (s->kind == SCREE_CRITERION_HOLDS)
+        (void)fprintf(file, "in %zu", a->successes);
+    else if (isfinite(e->low) && e->count > 1)
+        (void)fprintf(file, "%.4g [%.4g, %.4g]%s%s", e->middle, e->low, e->high, space, s->unit);
+    else if (isfinite(e->middle))
+        (void)fprintf(file, "%.4g%s%s", e->middle, space, s->unit);
+    else
+        (void)fputs("-", file);
+    (void)fprintf(file, " | %zu of %zu | ", e->count, a->planned);
+}
+
+void scree_page_row_write(FILE *file, const scree_statement *s, const scree_answer *a, const char *form, bool first,
+                          bool counted)
+{
+    put_statement(file, s, first);
+    put_value(file, s, a);
+    const char *mark = counted ? "**" : "";
+    (void)fprintf(file, "%s%s%s%s%s | %s | ", counted ? "" : "(", mark, verdict_names[a->verdict], mark,
+                  counted ? "" : ")", form);
+    put_cell(file, a->remark);
+    (void)fputs("\n", file);
+}
+
+/// How a row of the statement begins. NULL: no memory.
+static char *beginning(const scree_statement *s, bool first)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *file = open_memstream(&text, &length);
+    if (!file) return NULL;
+    put_statement(file, s, first);
+    if (fclose(file) == 0) return text;
+    free(text);
+    return NULL;
+}
+
+/// Reads the cells from our value on, which end before the end of the line.
+static bool read_cells(const char *cells, scree_page_rows *rows, bool *counted)
+{
+    size_t count, planned;
+    char verdict[32], form[16];
+    if (sscanf(cells, "%*[^|]| %zu of %zu | %31[^|]| %15[^ |]", &count, &planned, verdict, form) < 3) return false;
+    if (sscanf(cells, "%*[^|]|%*[^|]|%*[^|]| %15[^ |]", form) < 1) form[0] = '\0';
+    *(strcmp(form, "full") == 0 ? &rows->full : &rows->others) += count;
+    rows->planned += planned;
+    if (strncmp(verdict, "**", 2) != 0) return true;
+    for (int v = 0; v < SCREE_VERDICTS; v++) {
+        const size_t length = strlen(verdict_names[v]);
+        if (strncmp(verdict + 2, verdict_names[v], length) != 0 || strcmp(verdict + 2 + length, "** ") != 0) continue;
+        rows->verdict = (scree_verdict)v;
+        *counted = true;
+    }
+    return true;
+}
+
+bool scree_page_row_read(const char *section, size_t length, const scree_statement *s, scree_page_rows *rows)
+{
+    char *first = beginning(s, true), *later = beginning(s, false);
+    bool found = false, counted = false, readable = first && later;
+    *rows = (scree_page_rows){.verdict = SCREE_NOT_RUN};
+    for (const char *line = section; readable && line < section + length; line = strchr(line, '\n') + 1) {
+        const char *start = found ? later : first;
+        if (!strchr(line, '\n')) break;
+        if (strncmp(line, start, strlen(start)) != 0) continue;
+        readable = read_cells(line + strlen(start), rows, &counted);
+        found = true;
+    }
+    free(first);
+    free(later);
+    return readable && found && counted;
+}

@@ -1,0 +1,64 @@
+/// Sections of a page that was written before. Runs may be gone while the page still tells what they gave: a section
+/// that rests on more of them than the folders hold stays as it is.
+#include "sweep/page_section.h"
+#include "sweep/page_row.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// The part of a text from the line `heading` on, up to the next heading of the same level or above.
+static scree_page_section part_of(scree_page_section whole, const char *level, const char *heading)
+{
+    char line[400];
+    (void)snprintf(line, sizeof line, "\n%s %.300s\n", level, heading);
+    const char *end = whole.text + whole.length, *begin = whole.text ? strstr(whole.text, line) : NULL;
+    if (!begin || begin >= end) return (scree_page_section){NULL, 0};
+    const size_t depth = strlen(level);
+    for (const char *at = strstr(begin + 1, "\n#"); at && at < end; at = strstr(at + 1, "\n#")) {
+        const size_t marks = strspn(at + 1, "#");
+        if (marks > depth || at[1 + marks] != ' ') continue;
+        end = at;
+        break;
+    }
+    return (scree_page_section){begin, (size_t)(end - begin)};
+}
+
+scree_page_section scree_page_section_find(const char *page, const char *source, const char *name)
+{
+    const scree_page_section whole = {page, page ? strlen(page) : 0};
+    return part_of(part_of(whole, "##", source), "###", name);
+}
+
+/// Sums of realisations. False if a statement is not there word for word.
+static bool weigh(const scree_page_section *section, const scree_statement_group *group, scree_page_rows *sum)
+{
+    *sum = (scree_page_rows){.verdict = SCREE_NOT_RUN};
+    for (int64_t k = 0; k < group->statement_count; k++) {
+        scree_page_rows rows;
+        if (!scree_page_row_read(section->text, section->length, &group->statements[k], &rows)) return false;
+        sum->full += rows.full;
+        sum->others += rows.others;
+        sum->planned += rows.planned;
+    }
+    return true;
+}
+
+bool scree_page_section_outweighs(const scree_page_section *section, const scree_page_section *other,
+                                  const scree_statement_group *group)
+{
+    scree_page_rows mine, theirs;
+    if (section->length == 0 || !weigh(section, group, &mine) || !weigh(other, group, &theirs)) return false;
+    if (mine.full != theirs.full) return mine.full > theirs.full;
+    if (mine.others != theirs.others) return mine.others > theirs.others;
+    return mine.planned > theirs.planned;
+}
+
+void scree_page_section_count(const scree_page_section *section, const scree_statement_group *group,
+                              scree_page_counts *counts)
+{
+    for (int64_t k = 0; k < group->statement_count; k++) {
+        scree_page_rows rows;
+        (void)scree_page_row_read(section->text, section->length, &group->statements[k], &rows);
+        (*counts)[group->statements[k].class][rows.verdict]++;
+    }
+}

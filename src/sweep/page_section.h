@@ -1,0 +1,27 @@
+/// Sections of the reproduction page: one a case of a source.
+#ifndef SCREE_SWEEP_PAGE_SECTION_H
+#define SCREE_SWEEP_PAGE_SECTION_H
+
+#include "sweep/verdict.h"
+
+typedef size_t scree_page_counts[SCREE_CLASSES][SCREE_VERDICTS];
+
+/// A part of a page; it points into the text.
+typedef struct scree_page_section {
+    const char *text;
+    size_t length; ///< 0: it is not there
+} scree_page_section;
+
+/// The section of a case below the heading of its source. `page`: NULL for none.
+scree_page_section scree_page_section_find(const char *page, const char *source, const char *name);
+
+/// Whether all statements of the case stand there word for word, and rest on more realisations than in `other`: those
+/// of the full form come first, then the others, then those without a value.
+bool scree_page_section_outweighs(const scree_page_section *section, const scree_page_section *other,
+                                  const scree_statement_group *group);
+
+/// Adds the verdicts that count.
+void scree_page_section_count(const scree_page_section *section, const scree_statement_group *group,
+                              scree_page_counts *counts);
+
+#endif
