@@ -50,7 +50,7 @@ bool scree_page_section_outweighs(const scree_page_section *section, const scree
     if (section->length == 0 || !weigh(section, group, &mine) || !weigh(other, group, &theirs)) return false;
     if (mine.full != theirs.full) return mine.full > theirs.full;
     if (mine.others != theirs.others) return mine.others > theirs.others;
-    return mine.planned > theirs.planned;
+    return mine.planned > theirs.planned || theirs.planned == 0;
 }
 
 void scree_page_section_count(const scree_page_section *section, const scree_statement_group *group,
