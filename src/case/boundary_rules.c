@@ -60,18 +60,39 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
     return boundary->returned;
 }
 
+/// The stages that go without plates around the sample, as a message has them.
+static const char *those_without_plates(void)
+{
+    static _Thread_local char text[200];
+    size_t length = 0;
+    for (int k = 0; k < SCREE_MODULE_COUNT && length < sizeof text; k++) {
+        const scree_stage_numbers *stage = scree_modules[k]->numbers;
+        if (!stage || !stage->needs_standing) continue;
+        length +=
+            (size_t)snprintf(text + length, sizeof text - length, "%s%s", length ? " or " : "", scree_modules[k]->name);
+    }
+    return text;
+}
+
+/// A message that ends with them.
+static const char *only_without_plates(const char *why)
+{
+    static _Thread_local char text[400];
+    (void)snprintf(text, sizeof text, "%s: only %s can follow", why, those_without_plates());
+    return text;
+}
+
 /// What is wrong with `boundary` in a stage; NULL: nothing.
 static const char *wrong_boundary(const scree_config *config, const scree_stage_numbers *stage,
                                   const scree_boundary *boundary)
 {
     const bool falls = scree_config_has_gravity(config) && !stage->still, free = stage->still || stage->collides;
     if (!stage->needs_standing && !stage->still && config->wall_count > 0)
-        return "in a case with walls only relax can follow: the other stages need plates or a free surface of the "
-               "sample";
+        return only_without_plates("in a case with walls this stage has no plates and no free surface of the sample");
     if (boundary->needs_walls && config->wall_count == 0) return boundary->needs_walls;
     if (stage->needs_standing && !boundary->stands && !boundary->open) return stage->needs_standing;
     if (!stage->needs_standing && !free && boundary->open)
-        return "nothing stands around the sample that could press it: only relax can follow";
+        return only_without_plates("nothing stands around the sample that could press it");
     if ((boundary->free || (boundary->open && config->wall_count == 0 && !stage->collides)) && falls)
         return "without plates nothing holds the sample against gravity";
     // Of a sample that repeats itself the stage itself says more.

@@ -1,9 +1,15 @@
 /// Module of geometry rounded (rounded.h): contacts of polygons with rounded corners, and of discs among them.
 #include "contact/rounded.h"
 
+/// Polygons have corners, sharp or rounded; of all other shapes in the plane it knows discs.
+static bool is_known(const scree_shape *shape)
+{
+    return shape->dimension == 2 && (shape->round || shape->rounding);
+}
+
 static bool serves(const scree_shape *one, const scree_shape *other)
 {
-    return one->dimension == 2 && other->dimension == 2;
+    return is_known(one) && is_known(other);
 }
 
 static const scree_geometry geometry = {.traits = &rounded_traits, .serves = serves};

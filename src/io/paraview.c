@@ -507,7 +507,7 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
-        if (scenes[k].build == build_polygons && !state->form) continue;
+        if (scenes[k].build == build_polygons && !scree_polygons_of(state)->of) continue;
         if (scenes[k].build == build_membrane && scree_membrane_of(state)->count == 0) continue;
         if (scenes[k].build == build_walls && (!info->walls || info->walls->count == 0)) continue;
         scree_vtp vtp;

@@ -276,7 +276,8 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
 {
     const own *p = scree_polygons_of(state);
     const double bound = state->row[row].radius;
-    if (!p->of || p->of[row].count == 0) return bound;
+    if (!p->of) return state->form ? 0 : bound;
+    if (p->of[row].count == 0) return bound;
     const scree_corners of = p->of[row];
     const double(*corner)[2] = (const double(*)[2])p->corner + of.first;
     double least = bound;

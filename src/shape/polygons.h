@@ -68,7 +68,7 @@ SCREE_INLINE scree_core scree_core_of_row(const scree_state *state, const scree_
 scree_status scree_polygons_set(const scree_model *model, scree_state *state, size_t row, int count,
                                 const double (*corner)[2], double rounding, scree_error *error) SCREE_MUST_USE;
 
-/// Of the largest circle about its centre that lies in the body [m].
+/// Of the largest circle about its centre that lies in the body [m]; 0 of shapes of which nothing is known here.
 double scree_body_inner_radius(const scree_state *state, size_t row);
 
 /// Renews the posed corners. Cost: one sine and cosine a body, four products a corner.

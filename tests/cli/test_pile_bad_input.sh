@@ -61,7 +61,7 @@ changed 's/^dimension: 2/dimension: 3/' 'particles\.shape: polygons are bodies i
 changed 's/law: polygon_overlap/law: hertz_mindlin/; /damping_constant/d' 'contact\.law: law hertz_mindlin has no meaning for polygons with sharp corners: give particles\.rounding .*polygon_overlap, polygon_potential'
 changed 's/corners_min: 6/&\n  rounding: 0.1/' 'particles\.rounding: law polygon_overlap .*leave rounding out, or take contact\.law .*linear'
 changed 's/corners_min: 6/&\n  rounding: 1/' "particles\.rounding: '1' is too large .accepted: 0 to 0\.9"
-changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary: membrane' 'stages\.2\.boundary: in a case with walls only relax can follow: the other stages need plates'
+changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary: membrane' 'stages\.2\.boundary: in a case with walls this stage has no plates and no free surface of the sample: only relax or pour can follow'
 changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: sources do not pour into a sample that repeats itself: leave boundary\.periodic out'
 changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
 changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'

@@ -351,7 +351,7 @@ static void what_cannot_be_is_refused(void **unused)
            "stages.relax.boundary=affine");
     REFUSE_IN(CONFINED("sphere"), "stages.1.stage", "the sample has no plates below and above", "dimension=3",
               "boundary.periodic=yz");
-    REFUSE_IN(CONFINED("disc"), "stages.1.boundary", "only relax can follow", "stages.confine.boundary=none");
+    REFUSE_IN(CONFINED("disc"), "stages.1.boundary", "could press it: only relax or pour can follow", "stages.confine.boundary=none");
     REFUSE(2, "stages.1.boundary", "nothing holds the sample against gravity", "boundary.periodic=x",
            "stages.relax.boundary=none", "gravity=[0, -9.81]");
     REFUSE(2, "stages.0.method", "this method needs walls on all sides", "boundary.periodic=x",
