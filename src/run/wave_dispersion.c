@@ -60,13 +60,16 @@ static void turn(const crystal *c, int axis, double direction[3])
     direction[1] = M_SQRT1_2;
 }
 
-static double expected(const crystal *c, int axis, int component, double wavenumber)
+/// Frequency of the lattice; all: those of all its waves of this wave vector, ascending.
+static double expected(const crystal *c, int axis, int component, double wavenumber, double all[SCREE_LATTICE_BRANCHES])
 {
     double wave[3], direction[3];
+    for (int b = 0; b < SCREE_LATTICE_BRANCHES; b++) all[b] = NAN;
     if (!c->there) return NAN;
     turn(c, axis, wave);
     turn(c, component, direction);
     for (int k = 0; k < 3; k++) wave[k] *= wavenumber;
+    (void)scree_lattice_frequencies(c->lattice, &c->material, wave, SCREE_STRAIN_AT_ONCE, all);
     return scree_lattice_frequency_along(c->lattice, &c->material, wave, SCREE_STRAIN_AT_ONCE, direction);
 }
 
@@ -80,9 +83,12 @@ static void write_points(FILE *file, const crystal *c, int axis, int component, 
                          size_t count, findings *f)
 {
     for (size_t k = 0; k < count; k++) {
-        const double lattice = expected(c, axis, component, point[k].wavenumber);
-        fprintf(file, "%d,%.9g,%.9g,%.9g,%.9g\n", component, point[k].wavenumber, point[k].frequency, point[k].share,
+        double all[SCREE_LATTICE_BRANCHES];
+        const double lattice = expected(c, axis, component, point[k].wavenumber, all);
+        fprintf(file, "%d,%.9g,%.9g,%.9g,%.9g", component, point[k].wavenumber, point[k].frequency, point[k].share,
                 lattice);
+        for (int b = 0; b < SCREE_LATTICE_BRANCHES; b++) fprintf(file, ",%.9g", all[b]);
+        fputc('\n', file);
         if (!(point[k].share > CLEAR)) continue;
         f->points++;
         if (!isnan(lattice)) f->deviation = fmax(f->deviation, fabs(point[k].frequency / lattice - 1));
@@ -152,7 +158,9 @@ scree_status scree_waves_disperse(const scree_conclusion *run, scree_error *erro
     if (!status) status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_DISPERSION, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (!status) {
-        fputs("component [1],wavenumber [rad/m],frequency [rad/s],share [1],lattice [rad/s]\n", file);
+        fputs("component [1],wavenumber [rad/m],frequency [rad/s],share [1],lattice [rad/s]", file);
+        for (int b = 1; b <= SCREE_LATTICE_BRANCHES; b++) fprintf(file, ",wave_%d [rad/s]", b);
+        fputc('\n', file);
         status = write_components(run, own, &c, file, value, point, &f, error);
         const scree_status written = scree_replace_finish(path, file, status == SCREE_OK, status ? NULL : error);
         if (!status) status = written;

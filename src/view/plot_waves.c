@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { RECEIVERS, DISPERSION, MOST_LINES = 10, BLACK = 7 };
+enum { RECEIVERS, DISPERSION, COMPONENTS = 3, BRANCHES = 6, MOST_LINES = 10, BLACK = 7 };
 
 typedef struct wave_row {
     scree_figure figure;
@@ -102,46 +102,48 @@ static scree_status draw_receivers(const char *path, const scree_series *table, 
 // ---- dispersion --------------------------------------------------------------------------------------------------
 
 typedef struct dispersion_columns {
-    const double *component, *wavenumber, *frequency, *share, *lattice;
+    const double *component, *wavenumber, *frequency, *share;
 } dispersion_columns;
 
-/// Points of one component and the curve of its lattice; those without a clear frequency are left out.
-static void add_component(const dispersion_columns *c, size_t count, int component, double *room,
-                          scree_chart_line *line, size_t *lines)
+/// A line of the values of a column in the rows of one component; clear: with a clear frequency only.
+static void add_line(const dispersion_columns *c, const double *value, size_t count, int component, bool clear,
+                     double *room, scree_chart_line *line, size_t *lines)
 {
-    static const char *const names[2][3] = {{"along x", "along y", "along z"},
-                                            {"lattice, x", "lattice, y", "lattice, z"}};
-    double *frequency = room, *lattice = room + count;
-    bool any[2] = {false, false};
+    bool any = false;
     for (size_t k = 0; k < count; k++) {
-        const bool here = (int)c->component[k] == component;
-        frequency[k] = here && c->share[k] > 0.5 ? c->frequency[k] : NAN;
-        lattice[k] = here ? c->lattice[k] : NAN;
-        any[0] = any[0] || isfinite(frequency[k]);
-        any[1] = any[1] || isfinite(lattice[k]);
+        const bool here = (int)c->component[k] == component && (!clear || c->share[k] > 0.5);
+        room[k] = here ? value[k] : NAN;
+        any = any || isfinite(room[k]);
     }
-    for (int kind = 0; kind < 2; kind++)
-        if (any[kind])
-            line[(*lines)++] = (scree_chart_line){.x = c->wavenumber,
-                                                  .y = kind ? lattice : frequency,
-                                                  .count = count,
-                                                  .label = names[kind][component],
-                                                  .colour = 1 + component,
-                                                  .points = !kind,
-                                                  .bare = !kind};
+    if (any) line[(*lines)++] = (scree_chart_line){.x = c->wavenumber, .y = room, .count = count};
 }
 
+/// All waves of the lattice, and points of the components over them.
 static scree_status draw_dispersion(const char *path, const scree_series *table, double *room, scree_error *error)
 {
+    static const char *const names[COMPONENTS] = {"along x", "along y", "along z"};
     const dispersion_columns c = {scree_series_get(table, "component"), scree_series_get(table, "wavenumber"),
-                                  scree_series_get(table, "frequency"), scree_series_get(table, "share"),
-                                  scree_series_get(table, "lattice")};
-    scree_chart_line line[6];
-    size_t lines = 0;
-    if (!c.component || !c.wavenumber || !c.frequency || !c.share || !c.lattice)
+                                  scree_series_get(table, "frequency"), scree_series_get(table, "share")};
+    scree_chart_line line[COMPONENTS + BRANCHES];
+    size_t lines = 0, count = table->row_count;
+    if (!c.component || !c.wavenumber || !c.frequency || !c.share)
         return scree_error_set(error, SCREE_ERROR_INPUT, "%s lacks a column", SCREE_FILE_DISPERSION);
-    for (int i = 0; i < 3; i++)
-        add_component(&c, table->row_count, i, room + 2 * (size_t)i * table->row_count, line, &lines);
+    for (int b = 0; b < BRANCHES; b++, room += count) {
+        char name[16];
+        (void)snprintf(name, sizeof name, "wave_%d", b + 1);
+        const double *wave = scree_series_get(table, name);
+        if (wave) add_line(&c, wave, count, (int)c.component[0], false, room, line, &lines);
+    }
+    for (size_t k = 0; k < lines; k++) line[k].colour = BLACK;
+    if (lines > 0) line[0].label = "waves of the lattice";
+    for (int i = 0; i < COMPONENTS; i++, room += count) {
+        const size_t before = lines;
+        add_line(&c, c.frequency, count, i, true, room, line, &lines);
+        if (lines == before) continue;
+        line[before].label = names[i];
+        line[before].colour = 1 + i;
+        line[before].points = line[before].bare = true;
+    }
     const scree_chart chart = {.title = "Dispersion relation of the layers",
                                .x_label = "wavenumber (rad/m)",
                                .y_label = "circular frequency (rad/s)",
