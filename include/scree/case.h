@@ -62,7 +62,7 @@ SCREE_API scree_status scree_case_write(const scree_case *c, FILE *file, scree_e
 typedef struct scree_case_summary {
     char name[64];
     uint64_t particles;
-    double step, critical_step;    ///< s; step: the small one of two_timescales
+    double step, critical_step;    ///< s; step: the small one of a scheme that has two
     uint64_t largest_step;         ///< in steps: N_S of two_timescales, else 1
     double phi, psi;               ///< quasistatic and size coefficients, NAN without a loading stage
     double inertial_number;        ///< of the first loading stage at its full rate, NAN without one

@@ -29,7 +29,7 @@ class CaseSummary:
 
     name: str
     particles: int
-    step: float  #: s, the small one of two_timescales
+    step: float  #: s, the small one of a scheme that has two
     critical_step: float  #: s
     largest_step: int  #: in steps
     phi: float  #: quasistatic coefficient

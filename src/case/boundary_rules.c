@@ -14,14 +14,46 @@ static void refuse(scree_reader *reader, int64_t index, const char *key, const c
     scree_problem_add(reader, node ? node->place : stage->place, path, node ? node->text : NULL, NULL, "%s", message);
 }
 
+static bool fills_cells(const scree_module *method)
+{
+    return method->preparation->periodic;
+}
+
+static bool goes_without_plates(const scree_module *stage)
+{
+    return stage->numbers->needs_standing != NULL;
+}
+
+static bool imposes_gradients(const scree_module *boundary)
+{
+    return boundary->boundary->free;
+}
+
+static bool imposes_gradients_on_round(const scree_module *boundary)
+{
+    return boundary->boundary->free && boundary->boundary->round;
+}
+
+/// A message with the choices that would do.
+static const char *with_choices(scree_reader *reader, const char *why, const char *key,
+                                bool (*suits)(const scree_module *module), const char *behind)
+{
+    static _Thread_local char text[400];
+    const char *choices = scree_rule_choices(reader, key, " or ", suits);
+    (void)snprintf(text, sizeof text, "%s%s%s", why, choices ? choices : "another", behind);
+    return text;
+}
+
 /// What is wrong with the preparation of a periodic sample, and under which key; NULL: nothing.
-static const char *wrong_preparation(const scree_prepare_config *stage, const char **key)
+static const char *wrong_preparation(scree_reader *reader, const scree_prepare_config *stage, const char **key)
 {
     *key = "method";
     if (stage->method >= 0 && !scree_modules[stage->method]->preparation->periodic)
         return scree_modules[stage->method]->preparation->needs_walls
-                   ? "this method needs walls on all sides and cannot fill a sample that repeats itself "
-                     "(boundary.periodic): prepare with gas, growth, bodies or on a lattice, and confine"
+                   ? with_choices(reader,
+                                  "this method needs walls on all sides and cannot fill a sample that repeats itself "
+                                  "(boundary.periodic): prepare with ",
+                                  "stages.prepare.method", fills_cells, ", and confine")
                    : NULL; // of a pair more is said
     *key = "outline";
     return stage->outline != SCREE_SAMPLE_BOX ? "a round sample cannot repeat itself" : NULL;
@@ -60,43 +92,27 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
     return boundary->returned;
 }
 
-/// The stages that go without plates around the sample, as a message has them.
-static const char *those_without_plates(void)
-{
-    static _Thread_local char text[200];
-    size_t length = 0;
-    for (int k = 0; k < SCREE_MODULE_COUNT && length < sizeof text; k++) {
-        const scree_stage_numbers *stage = scree_modules[k]->numbers;
-        if (!stage || !stage->needs_standing) continue;
-        length +=
-            (size_t)snprintf(text + length, sizeof text - length, "%s%s", length ? " or " : "", scree_modules[k]->name);
-    }
-    return text;
-}
-
-/// A message that ends with them.
-static const char *only_without_plates(const char *why)
-{
-    static _Thread_local char text[400];
-    (void)snprintf(text, sizeof text, "%s: only %s can follow", why, those_without_plates());
-    return text;
-}
-
 /// What is wrong with `boundary` in a stage; NULL: nothing.
-static const char *wrong_boundary(const scree_config *config, const scree_stage_numbers *stage,
+static const char *wrong_boundary(scree_reader *reader, const scree_config *config, const scree_stage_numbers *stage,
                                   const scree_boundary *boundary)
 {
     const bool falls = scree_config_has_gravity(config) && !stage->still, free = stage->still || stage->collides;
     if (!stage->needs_standing && !stage->still && config->wall_count > 0)
-        return only_without_plates("in a case with walls this stage has no plates and no free surface of the sample");
+        return with_choices(reader,
+                            "in a case with walls this stage has no plates and no free surface of the sample: only ",
+                            "stages", goes_without_plates, " can follow");
     if (boundary->needs_walls && config->wall_count == 0) return boundary->needs_walls;
     if (stage->needs_standing && !boundary->stands && !boundary->open) return stage->needs_standing;
     if (!stage->needs_standing && !free && boundary->open)
-        return only_without_plates("nothing stands around the sample that could press it");
+        return with_choices(reader, "nothing stands around the sample that could press it: only ", "stages",
+                            goes_without_plates, " can follow");
     if ((boundary->free || (boundary->open && config->wall_count == 0 && !stage->collides)) && falls)
         return "without plates nothing holds the sample against gravity";
     // Of a sample that repeats itself the stage itself says more.
-    if (stage->needs_free && !boundary->free) return config->boundary.periodic > 0 ? NULL : stage->needs_free;
+    if (stage->needs_free && !boundary->free)
+        return config->boundary.periodic > 0
+                   ? NULL
+                   : with_choices(reader, stage->needs_free, "stages.boundary", imposes_gradients, "");
     return stage->needs_free ? NULL : boundary->needs_gradient;
 }
 
@@ -116,7 +132,7 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
         const char *key = "boundary", *wrong = NULL;
         if (numbers->places) {
             round = scree_config_prepared(stage)->outline != SCREE_SAMPLE_BOX;
-            if (config->boundary.periodic > 0) wrong = wrong_preparation(scree_config_prepared(stage), &key);
+            if (config->boundary.periodic > 0) wrong = wrong_preparation(reader, scree_config_prepared(stage), &key);
             if (wrong) refuse(reader, i, key, wrong);
             continue;
         }
@@ -126,9 +142,10 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
             continue;
         }
         if (config->boundary.periodic > 0) wrong = wrong_in_cell(config, stage, numbers, boundary, &key);
-        if (!wrong && !boundary->periodic) wrong = wrong_boundary(config, numbers, boundary);
+        if (!wrong && !boundary->periodic) wrong = wrong_boundary(reader, config, numbers, boundary);
         if (round && !boundary->periodic && !boundary->round)
-            wrong = "a round sample has no plates: give boundary: minimal or affine";
+            wrong = with_choices(reader, "a round sample has no plates: give boundary: ", "stages.boundary",
+                                 imposes_gradients_on_round, "");
         if (!wrong) wrong = wrong_order(boundary, before);
         if (!wrong && numbers->wrong) wrong = numbers->wrong(config, i, &key);
         if (wrong) refuse(reader, i, key, wrong);

@@ -74,6 +74,11 @@ void scree_rules_check_modules(scree_reader *reader, scree_config *config);
 void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
     SCREE_PRINTF(4, 5);
 
+/// Names of the modules that are choices of a key ("integrator.scheme") and suit, as the table has them, with `between`
+/// between two: what is accepted, or a way out in a message. Lives as long as the case; NULL: none suits, or no memory.
+const char *scree_rule_choices(scree_reader *reader, const char *key, const char *between,
+                               bool (*suits)(const scree_module *module));
+
 /// Whether the case gives the key at a path a value, right or wrong: not `auto`.
 bool scree_rule_is_said(scree_reader *reader, const char *path);
 

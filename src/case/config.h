@@ -78,7 +78,7 @@ typedef struct scree_config_contact {
 
 typedef struct scree_config_integrator {
     int scheme;           ///< slot of a module with an integrator
-    double step;          ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step;          ///< s, the small one of a scheme that has two; auto: step_fraction * critical step, over N_S
     double step_fraction; ///< 1, of the critical step, when step is auto
     void *own;            ///< structs of modules (scree_config_own)
 } scree_config_integrator;

@@ -90,6 +90,22 @@ void scree_rule_refuse(scree_reader *reader, const char *path, const char *accep
     scree_problem_add(reader, found->place, path, node ? node->text : NULL, accepted, "%s", message);
 }
 
+const char *scree_rule_choices(scree_reader *reader, const char *key, const char *between,
+                               bool (*suits)(const scree_module *module))
+{
+    char text[400];
+    size_t length = 0;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
+        const scree_choice_of *choice = scree_modules[m]->choice_of;
+        while (choice && choice->key && strcmp(choice->key, key) != 0) choice++;
+        if (!choice || !choice->key || !suits(scree_modules[m]) || length >= sizeof text) continue;
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", length > 0 ? between : "",
+                                   scree_modules[m]->name);
+    }
+    if (length >= sizeof text) length = sizeof text - 1;
+    return length > 0 ? scree_arena_copy(reader->arena, text, length) : NULL;
+}
+
 bool scree_rule_is_said(scree_reader *reader, const char *path)
 {
     scree_node *found, *node = find_node(reader, path, &found);

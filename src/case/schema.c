@@ -91,8 +91,9 @@ static const scree_key particles_keys[] = {
     KEY(particles, species, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = species_table,
         .section_count = 1, .count_offset = offsetof(particles, species_count), .element_size = sizeof(species),
         .initial = &unknown_species, .choices = listed,
-        .meaning = "Particles of several kinds, each with its own shape, material and sizes, at random places among each "
-                   "other."),
+        .meaning =
+            "Particles of several kinds, each with its own shape, material and sizes, at random places among each "
+            "other."),
 };
 
 typedef scree_config_pair_law pair_law;
@@ -133,10 +134,11 @@ static const scree_key contact_keys[] = {
 typedef scree_config_integrator integrator;
 static const scree_key integrator_keys[] = {
     CHOICE(integrator, scheme, NULL, .standard = "velocity_verlet", .meaning = "Integration scheme."),
-    NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
-           .meaning =
-               "Time step, the small one of two_timescales; auto: the largest is `step_fraction` of the critical "
-               "step."),
+    NUMBER(
+        integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
+        .meaning =
+            "Time step, the small one of a scheme that has two; auto: the largest is `step_fraction` of the critical "
+            "step."),
     NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
            .meaning = "Largest step over critical step."),
 };
@@ -151,8 +153,8 @@ static const scree_key boundary_keys[] = {
            .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`. Not "
                       "asked for where the sample repeats itself."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
-            .meaning =
-                "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),
+            .meaning = "Steps between two updates of the Delaunay boundary; the largest ones of a scheme with steps of "
+                       "two sizes."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
     NUMBER(boundary, gap_hysteresis, "1", .standard = "0.2", FROM("0"), BELOW("1"),

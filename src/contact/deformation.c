@@ -127,6 +127,16 @@ static void judge_material(scree_reader *reader, const scree_config *whole, int6
                           "a particle that deforms needs a Poisson's ratio between -1 and 0.5");
 }
 
+static bool takes_deforming(const scree_module *boundary)
+{
+    return !boundary->boundary->needs_rigid;
+}
+
+static bool takes_implicit(const scree_module *boundary)
+{
+    return takes_deforming(boundary) && !boundary->boundary->needs_lag;
+}
+
 static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t index)
 {
     char path[SCREE_PATH_BYTES];
@@ -135,10 +145,12 @@ static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t
     const scree_boundary *boundary = scree_config_held_by(whole, index);
     (void)snprintf(path, sizeof path, "stages.%lld.boundary", (long long)index);
     if (boundary && boundary->needs_rigid)
-        scree_rule_refuse(reader, path, "plates, pressure, affine, minimal, periodic, none", "%s",
-                          boundary->needs_rigid);
+        scree_rule_refuse(reader, path,
+                          scree_rule_choices(reader, "stages.boundary", ", ", lags ? takes_deforming : takes_implicit),
+                          "%s", boundary->needs_rigid);
     else if (boundary && boundary->needs_lag && !lags)
-        scree_rule_refuse(reader, path, "plates, pressure, affine, periodic, none", "%s", boundary->needs_lag);
+        scree_rule_refuse(reader, path, scree_rule_choices(reader, "stages.boundary", ", ", takes_implicit), "%s",
+                          boundary->needs_lag);
 }
 
 static void rules(scree_reader *reader, const scree_config *whole)
@@ -154,7 +166,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
                           "the law of the contacts does not carry particles that deform: take law: linear");
     }
     if (whole->integrator.scheme >= 0 && scree_integrator_get(whole->integrator.scheme)->velocity)
-        scree_rule_refuse(reader, "integrator.scheme", "velocity_verlet, position_verlet",
+        scree_rule_refuse(reader, "integrator.scheme",
+                          scree_rule_choices(reader, "integrator.scheme", ", ", scree_scheme_is_leapfrog),
                           "the strains of particles that deform follow the steps of a leapfrog: choose another scheme, "
                           "or contact.deformation: none");
     for (int64_t i = 0; i < whole->material_count; i++) judge_material(reader, whole, i);

@@ -61,13 +61,15 @@ static void rules(scree_reader *reader, const scree_config *config)
 {
     const scree_config_integrator *integrator = &config->integrator;
     if (!has_implicit(&config->contact) || integrator->scheme < 0) return;
+    const char *const path = "integrator.scheme", *const others = scree_rule_choices(reader, path, ", ",
+                                                                                     scree_scheme_has_equal_steps);
     if (scree_integrator_get(integrator->scheme)->velocity)
-        scree_rule_refuse(reader, "integrator.scheme", "position_verlet, velocity_verlet",
+        scree_rule_refuse(reader, path, others,
                           "an implicit contact.friction_update reckons with the kick of a leapfrog: choose another "
                           "scheme, or friction_update: explicit");
     scree_steps (*lengths)(const void *own) = scree_integrator_get(integrator->scheme)->steps;
     if (lengths && lengths(integrator->own).small > 0)
-        scree_rule_refuse(reader, "integrator.scheme", "position_verlet, velocity_verlet",
+        scree_rule_refuse(reader, path, others,
                           "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
                           "choose another scheme, or small_steps: 0");
 }

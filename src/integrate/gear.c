@@ -421,15 +421,14 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return c;
 }
 
-#define OTHERS "velocity_verlet, position_verlet"
-
 /// A boundary that imposes a motion finds the force for it from the next kick of a leapfrog. Others that do so refuse
 /// every scheme with velocities of its own.
 static void rules(scree_reader *reader, const scree_config *config)
 {
-    const char *const path = "integrator.scheme";
+    const char *const path = "integrator.scheme", *const others =
+                                                      scree_rule_choices(reader, path, ", ", scree_scheme_is_leapfrog);
     if (config->boundary.periodic != SCREE_PERIODIC_NONE) {
-        scree_rule_refuse(reader, path, OTHERS,
+        scree_rule_refuse(reader, path, others,
                           "gear has not been made for periodic cells, whose bodies move with the cell: choose another "
                           "scheme, or boundary.periodic: none");
         return;
@@ -437,7 +436,7 @@ static void rules(scree_reader *reader, const scree_config *config)
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_boundary *boundary = scree_config_held_by(config, i);
         if (!boundary || !(boundary->equal_steps || boundary->free || boundary->periodic)) continue;
-        scree_rule_refuse(reader, path, OTHERS,
+        scree_rule_refuse(reader, path, others,
                           "stages.%lld imposes velocities by forces that a leapfrog turns into them; gear does not",
                           (long long)i);
         return;

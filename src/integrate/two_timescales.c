@@ -47,12 +47,12 @@ static scree_steps steps(const void *own)
 /// What reckons with a kick of the size of the last step cannot stand steps of two sizes.
 static void rules(scree_reader *reader, const scree_config *whole)
 {
-    const char *const others = "position_verlet, velocity_verlet", *const path = "integrator.scheme";
+    const char *const path = "integrator.scheme";
     for (int64_t i = 0; i < whole->stage_count; i++) {
         const scree_boundary *boundary = scree_config_held_by(whole, i);
         if (!boundary || !boundary->equal_steps) continue;
-        scree_rule_refuse(reader, path, others, "the boundary of stages.%lld imposes velocities and needs equal steps",
-                          (long long)i);
+        scree_rule_refuse(reader, path, scree_rule_choices(reader, path, ", ", scree_scheme_has_equal_steps),
+                          "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
         return;
     }
 }

@@ -7,7 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const names[] = {"velocity x", "velocity y", "velocity z", "spin x", "spin y", "spin z", "surface"};
+/// Of a component, as a motion and as a push.
+static const char *const motions[] = {"velocity x", "velocity y", "velocity z", "spin x", "spin y", "spin z"};
+static const char *const pushes[] = {
+    "force x", "force y", "force z", "torque x", "torque y", "torque z", "point that forces act on"};
 
 bool scree_prescribed_drives(const scree_prescribed_config *own, int component)
 {
@@ -41,20 +44,35 @@ static scree_status refuse(int64_t load, scree_error *error, scree_status status
     return status;
 }
 
-/// A component of a body becomes that of a load.
-static scree_status own_component(const scree_context *c, int64_t load, size_t row, int component, scree_error *error)
+/// Two loads meet in a component of a body. held: the first one prescribes its motion; drives: the second one does.
+static scree_status refuse_both(const scree_context *c, int64_t first, int64_t second, size_t row, int component,
+                                bool held, bool drives, scree_error *error)
 {
-    const scree_config_load *loads = c->model->loads;
-    scree_owners *owner = &scree_prescribed_of(c->state)->owner[row];
-    int before = (*owner)[component];
-    if (before)
-        return refuse(load, error,
-                      scree_error_set(error, SCREE_ERROR_INPUT,
-                                      "'%s' and '%s' both prescribe the %s of particle %u: leave it to one of them",
-                                      scree_prescribed_name(scree_prescribed_config_of(loads, before - 1)),
-                                      scree_prescribed_name(scree_prescribed_config_of(loads, load)), names[component],
-                                      c->state->id[row]));
-    (*owner)[component] = (uint8_t)(load + 1);
+    const char *one = scree_prescribed_name(scree_prescribed_config_of(c->model->loads, first));
+    const char *other = scree_prescribed_name(scree_prescribed_config_of(c->model->loads, second));
+    const unsigned id = c->state->id[row];
+    scree_status status =
+        held == drives
+            ? scree_error_set(error, SCREE_ERROR_INPUT,
+                              "'%s' and '%s' both prescribe the %s of particle %u: leave it to one of them", one, other,
+                              held ? motions[component] : pushes[component], id)
+            : scree_error_set(error, SCREE_ERROR_INPUT,
+                              "'%s' prescribes the %s of particle %u, so the %s of '%s' would change nothing: leave "
+                              "the particle to one of them",
+                              held ? one : other, motions[component], id, pushes[component], held ? other : one);
+    return refuse(second, error, status);
+}
+
+/// A component of a body becomes that of a load.
+static scree_status own_component(const scree_context *c, int64_t load, size_t row, int component, bool drives,
+                                  scree_error *error)
+{
+    scree_state *state = c->state;
+    uint8_t *owner = &scree_prescribed_of(state)->owner[row][component];
+    const bool held = component < SCREE_COMPONENTS && (state->held[row] >> component & 1);
+    if (*owner) return refuse_both(c, *owner - 1, load, row, component, held, drives, error);
+    *owner = (uint8_t)(load + 1);
+    if (drives) state->held[row] |= (uint8_t)(1 << component);
     return SCREE_OK;
 }
 
@@ -69,10 +87,9 @@ static scree_status own_body(const scree_context *c, int64_t load, size_t row, s
         bool drives = scree_prescribed_drives(own, d) && !ended;
         if (!scree_component_exists(state->dimension, d) || !(drives || ended || scree_prescribed_pushes(own, d)))
             continue;
-        status = own_component(c, load, row, d, error);
-        if (drives) state->held[row] |= (uint8_t)(1 << d);
+        status = own_component(c, load, row, d, drives, error);
     }
-    if (!status && own->attack == SCREE_ATTACK_SURFACE) status = own_component(c, load, row, SCREE_LEVER, error);
+    if (!status && own->attack == SCREE_ATTACK_SURFACE) status = own_component(c, load, row, SCREE_LEVER, false, error);
     bool forced = scree_forced(state)->active && scree_forced(state)->id == state->id[row];
     if (!status && forced && state->held[row] >> 3)
         status = refuse(load, error,

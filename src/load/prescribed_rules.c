@@ -172,7 +172,7 @@ static bool refuse_scheme(scree_reader *reader, const scree_config *config)
     const int scheme = config->integrator.scheme;
     if (scheme < 0 || !scree_integrator_get(scheme)->velocity) return false;
     scree_rule_refuse(
-        reader, "integrator.scheme", "velocity_verlet, position_verlet",
+        reader, "integrator.scheme", scree_rule_choices(reader, "integrator.scheme", ", ", scree_scheme_is_leapfrog),
         "a load prescribes motions by forces that a leapfrog turns into velocities: choose such a scheme, "
         "or leave the load out");
     return true;

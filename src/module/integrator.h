@@ -36,6 +36,18 @@ typedef struct scree_integrator {
     double velocity_lead; ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
 } scree_integrator;
 
+/// A leapfrog: its kick says which force a motion takes that is imposed.
+static inline bool scree_scheme_is_leapfrog(const scree_module *scheme)
+{
+    return !scheme->integrator->velocity;
+}
+
+/// A leapfrog whose steps are all of one size.
+static inline bool scree_scheme_has_equal_steps(const scree_module *scheme)
+{
+    return scree_scheme_is_leapfrog(scheme) && !scheme->integrator->steps;
+}
+
 /// That of a scheme: the slot of a module that is one.
 static inline const scree_integrator *scree_integrator_get(int scheme)
 {

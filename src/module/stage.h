@@ -28,7 +28,8 @@ typedef struct scree_stage_numbers {
     const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
     const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not
     const char *needs_standing; ///< what is wrong where nothing stands around the sample; NULL: nothing need stand
-    const char *needs_free;     ///< what is wrong where plates stand: it imposes a velocity gradient; NULL: they may
+    const char *needs_free;     ///< what is wrong where plates stand, since it imposes a velocity gradient; names of
+                                ///< boundaries that take one follow. NULL: they may stand
     /// Largest normal stress that it holds [Pa, compression positive], NAN: none. NULL: holds none.
     double (*pressure)(const void *config);
     /// Strain rate that it imposes [1/s], of several components the largest, on the sample that the model expects.

@@ -77,8 +77,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     if (periodic && !method->periodic)
         return scree_prepare_error(
             error, model, stage, "method",
-            "%s needs walls and cannot fill a periodic cell: prepare with gas, growth or on a lattice, "
-            "and confine",
+            "%s needs walls and cannot fill a periodic cell: prepare with a method that can, and confine",
             module->name);
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;

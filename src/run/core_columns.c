@@ -1,7 +1,7 @@
 #include "run/core_columns.h"
 
 const scree_result scree_sample_columns[SCREE_SAMPLE_COUNT] = {
-    [SCREE_SAMPLE_STEP] = {"step", "1", "simulated time in ticks: steps, small ones with two_timescales"},
+    [SCREE_SAMPLE_STEP] = {"step", "1", "simulated time in ticks: steps, the small ones of a scheme that has two"},
     [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
     [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
     [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1",
@@ -64,8 +64,8 @@ const scree_result scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_WORK_BOUNDARY] = {"work_boundary", "J",
                                     "work of imposed rates, or of the springs of a membrane and its ends"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
-    [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J",
-                                  "put into the kinetic energy by the scheme: changes of the step, errors of gear"},
+    [SCREE_SAMPLE_SCHEME_WORK] =
+        {"scheme_work", "J", "put into the kinetic energy by the scheme: changes of the step, errors of a corrector"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1",
                                                "its magnitude over all energy: at the begin, turned over, stored now"},

@@ -3,7 +3,7 @@
 /// Only where bonds hold or particles deform, and something moves; another run has the estimate of its case
 /// (model/critical_step.c).
 ///
-/// Method. The step of the scheme, the largest one of two_timescales, uses a part of what the specimen bears: the
+/// Method. The step of the scheme, the largest one where it has several, uses a part of what the specimen bears: the
 /// largest eigenvalue of (1) in specimen/stability.c with the strain as the run treats it. A bound from single bodies
 /// (specimen/bound.c) settles most cases; where it does not, the operator does. Above 1 the run stops between two
 /// steps, with a checkpoint; what has been asked for is part of the state, so going on from there stops again.

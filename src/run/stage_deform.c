@@ -208,8 +208,7 @@ static const scree_stage_numbers numbers = {
     .pressure = pressure_of,
     .rate = rate_of,
     .strain = strain_of,
-    .needs_free = "deform imposes a velocity gradient on the boundary: give boundary: minimal or affine, or make the "
-                  "sample periodic",
+    .needs_free = "deform imposes a velocity gradient on the boundary: make the sample periodic, or give boundary: ",
     .wrong = wrong};
 
 const scree_module scree_module_deform = {

@@ -326,7 +326,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
     if (whole->integrator.scheme < 0 || !scree_integrator_get(whole->integrator.scheme)->velocity) return;
     for (int64_t i = 0; i < whole->stage_count; i++) {
         if (whole->stages[i].kind != SCREE_SLOT_rotate_particle) continue;
-        scree_rule_refuse(reader, "integrator.scheme", "velocity_verlet, position_verlet",
+        scree_rule_refuse(reader, "integrator.scheme",
+                          scree_rule_choices(reader, "integrator.scheme", ", ", scree_scheme_is_leapfrog),
                           "stages.%lld prescribes a spin in the steps of a leapfrog: choose such a scheme",
                           (long long)i);
         return;

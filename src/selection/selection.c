@@ -5,7 +5,9 @@
 #include "case/check.h"
 #include "state/body.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef scree_selections own;
 
@@ -17,6 +19,27 @@ static scree_status refuse(const scree_model *model, int64_t index, const char *
                                           scree_modules[selection->kind]->name, why);
     if (error) (void)snprintf(error->field, sizeof error->field, "selections.%lld", (long long)index);
     return status;
+}
+
+/// It has no particle: where those of the sample are.
+static scree_status refuse_empty(const scree_model *model, const scree_state *state, int64_t index, scree_error *error)
+{
+    char why[256] = "has no particle: give it some of those that there are now, whose centres lie in";
+    scree_vector place, low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t row = 0; row < state->count; row++) {
+        if (!scree_body_is_grain(state, row)) continue;
+        scree_body_position(state, row, place);
+        for (int k = 0; k < state->dimension; k++) {
+            low[k] = fmin(low[k], place[k]);
+            high[k] = fmax(high[k], place[k]);
+        }
+    }
+    for (int k = 0; k < state->dimension; k++) {
+        size_t length = strlen(why);
+        (void)snprintf(why + length, sizeof why - length, "%s %c %.4g to %.4g m", k > 0 ? "," : "", "xyz"[k], low[k],
+                       high[k]);
+    }
+    return refuse(model, index, why, error);
 }
 
 static void enlist(scree_state *state, int64_t index, size_t row, bool belongs)
@@ -82,7 +105,7 @@ scree_status scree_selection_resolve(const scree_model *model, scree_state *stat
     if (!status) status = find(model, state, index, error);
     for (size_t row = 0; row < state->count && !status; row++)
         if (scree_selection_has(state, index, row)) return SCREE_OK;
-    return status ? status : refuse(model, index, "has no particle where the sample is now", error);
+    return status ? status : refuse_empty(model, state, index, error);
 }
 
 /// Who belongs to what, of the bodies that belong to something.

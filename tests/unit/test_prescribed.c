@@ -461,7 +461,19 @@ static void what_meets_in_a_body_is_refused(void **unused)
     const char *both = "loads=[{load: prescribed, selection: one, velocity_x: 0}, "
                        "{load: prescribed, selection: other, force_x: 1 N}]";
     const char *const same[] = {both, "selections.other.ids=[0, 1]"};
-    expect_refusal(same, 2, "'one' and 'other' both prescribe the velocity x of particle 0", 0);
+    expect_refusal(same, 2, "'one' prescribes the velocity x of particle 0, so the force x of 'other' would", 0);
+    const char *const turned[] = {"loads=[{load: prescribed, selection: one, force_x: 1 N}, "
+                                  "{load: prescribed, selection: other, velocity_x: 0}]",
+                                  "selections.other.ids=[0, 1]"};
+    expect_refusal(turned, 2, "'other' prescribes the velocity x of particle 0, so the force x of 'one' would", 0);
+    const char *const driven[] = {"loads=[{load: prescribed, selection: one, velocity_x: 0}, "
+                                  "{load: prescribed, selection: other, velocity_x: 1 m/s}]",
+                                  "selections.other.ids=[0, 1]"};
+    expect_refusal(driven, 2, "'one' and 'other' both prescribe the velocity x of particle 0: leave it", 0);
+    const char *const pushed[] = {"loads=[{load: prescribed, selection: one, force_x: 0.5 N}, "
+                                  "{load: prescribed, selection: other, force_x: 1 N}]",
+                                  "selections.other.ids=[0, 1]"};
+    expect_refusal(pushed, 2, "'one' and 'other' both prescribe the force x of particle 0: leave it", 0);
     const char *const missing[] = {both, "selections.other.ids=[1, 2]"};
     expect_refusal(missing, 2, "names particle 2, which is not there", 16);
     const char *const empty[] = {both, "selections=[{select: ids, name: one, ids: [0]}, {select: box, name: other, "
