@@ -166,7 +166,7 @@ static scree_status check(const scree_average_sample *sample, scree_error *error
     for (size_t p = 0; p < sample->bodies; p++) {
         const scree_average_grain *grain = &sample->grain[p];
         if (!isfinite(scree_length(grain->position)) || !(grain->volume > 0) || !isfinite(grain->volume))
-            return scree_error_set(error, SCREE_ERROR_INPUT, "body %u has no place or no size that is a number",
+            return scree_error_set(error, SCREE_ERROR_INPUT, "body %u has no position or no size that is a number",
                                    grain->id);
         grains += grain->counted;
     }

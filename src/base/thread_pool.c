@@ -43,7 +43,7 @@ struct scree_thread_pool {
     double stalled;                     ///< s
     _Alignas(64) atomic_int unfinished; ///< shares of others
     _Alignas(64) atomic_int waiting;    ///< 1: the caller sleeps until there are none
-    member members[SCREE_TEAM_MOST];
+    member members[SCREE_THREAD_POOL_MOST];
 };
 
 static inline void relax(void)

@@ -10,7 +10,7 @@
 
 #include <stddef.h>
 
-enum { SCREE_TEAM_MOST = 64 };
+enum { SCREE_THREAD_POOL_MOST = 64 };
 
 typedef struct scree_thread_pool scree_thread_pool;
 
@@ -20,7 +20,7 @@ typedef void scree_thread_pool_task(void *argument, int index, int count);
 /// Calls task(argument, k, count) for every k < count, at most one in each thread besides the caller's (k = 0 is the
 /// caller's), and returns when all have. *thread pool is NULL at first and made when it is needed, anew for a larger
 /// count; without memory or threads for it the caller does all shares itself, one after the other. count: 1 to
-/// SCREE_TEAM_MOST. One caller at a time.
+/// SCREE_THREAD_POOL_MOST. One caller at a time.
 void scree_thread_pool_run(scree_thread_pool **pool, int count, scree_thread_pool_task *task, void *argument);
 
 /// Where the share `index` of `count` begins among `items` things; it ends where the next one begins.

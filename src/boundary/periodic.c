@@ -248,8 +248,8 @@ typedef struct bodies_task {
     const step_maps *maps;
     const double *inverse; ///< of the lattice
     double quantum;        ///< J, of the sums
-    scree_wide_sum sum[SCREE_TEAM_MOST];
-    double largest[SCREE_TEAM_MOST]; ///< m
+    scree_wide_sum sum[SCREE_THREAD_POOL_MOST];
+    double largest[SCREE_THREAD_POOL_MOST]; ///< m
 } bodies_task;
 
 /// The maps are copied, so that the compiler knows that rows do not overlap them.

@@ -92,7 +92,7 @@ static const scree_key particles_keys[] = {
         .section_count = 1, .count_offset = offsetof(particles, species_count), .element_size = sizeof(species),
         .initial = &unknown_species, .choices = listed,
         .meaning =
-            "Particles of several kinds, each with its own shape, material and sizes, at random places among each "
+            "Particles of several kinds, each with its own shape, material and sizes, at random positions among each "
             "other."),
 };
 

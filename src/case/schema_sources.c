@@ -18,7 +18,7 @@ static bool is_flat(const scree_module *module)
 }
 
 static const scree_choice batches[] = {
-    {"one", SCREE_SOURCE_ONE, "one particle at a time, at a random place"},
+    {"one", SCREE_SOURCE_ONE, "one particle at a time, at a random position"},
     {"layer", SCREE_SOURCE_LAYER, "a whole layer at once, its particles side by side"},
     {0},
 };

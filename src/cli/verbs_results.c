@@ -63,7 +63,7 @@ const scree_verb scree_results_verbs[] = {
                                "fpa, osl, oriented, wedge"},
                    {.name = "axis",
                     .value = "mass|apex|X",
-                    .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a place",
+                    .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a position",
                     .preset = "mass"},
                    {.name = "grid",
                     .value = "NXxNY[xNZ]",
@@ -71,7 +71,7 @@ const scree_verb scree_results_verbs[] = {
                                "z, in the middle of y"},
                    {.name = "sizes",
                     .value = "N,...",
-                    .meaning = "elements of so many grains about one place on the axis near the bottom, such as "
+                    .meaning = "elements of so many grains about one position on the axis near the bottom, such as "
                                "5,10,20,50,100,200,400,800: how many grains make an average"},
                    {.name = "two-slopes",
                     .meaning = "--fit takes piles with a slope of their own on each side, all built alike, and wedges"},
@@ -132,7 +132,7 @@ const scree_verb scree_results_verbs[] = {
         .name = "export",
         .meaning = "write the snapshots of a run as a LAMMPS dump, for OVITO",
         .text =
-            "A frame a snapshot, with id, type (the material, from 1), place, radius, velocity, spin and mark (0: a "
+            "A frame a snapshot, with id, type (the material, from 1), position, radius, velocity, spin and mark (0: a "
             "grain) of each body, and in the plane its angle; the time step is the number of the snapshot. A "
             "periodic cell is the box, tilted where it is sheared, and velocities are relative to its affine field. "
             "Polygons are written as discs of their radius. "

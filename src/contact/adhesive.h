@@ -97,7 +97,7 @@ SCREE_INLINE adhesive_state adhesive_at(bool jkr, lanes stiffness, lanes root, l
 }
 
 /// Twice what is lost where a contact begins or ends in this step; a_before is zero where it was none. What overlapped
-/// before the step has been placed so: it did not snap in, and the books began with its energy.
+/// before the step has been placed so: it did not snap in, and the ledger began with its energy.
 SCREE_INLINE lanes adhesive_snap(const adhesive_state *now, const adhesive_state *before, lanes a, lanes a_before,
                                  lanes overlap, lanes way)
 {

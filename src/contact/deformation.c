@@ -357,7 +357,7 @@ static scree_status clear_attack(const scree_context *c, scree_error *error)
 static scree_status solve(const scree_context *c, scree_error *error)
 {
     scree_stretch_change change;
-    // The first forces of a run are those of rigid bodies: the books begin with them.
+    // The first forces of a run are those of rigid bodies: the ledger begins with them.
     if (!is_implicit(c) || c->state->evaluations <= 1) return SCREE_OK;
     const numbers *n = own_numbers(c->model);
     scree_status status = scree_implicit_solve(c, n->compliance, n->tolerance, &change, error);

@@ -1,5 +1,5 @@
-/// Faults are sought again from positions and velocities, body by body and pair by pair, so the answer does not depend
-/// on the kernel, on threads or on the order of the list.
+/// What the guard found is sought again from positions and velocities, body by body and pair by pair, so the answer
+/// does not depend on the kernel, on threads or on the order of the list.
 #include "contact/diagnostics.h"
 #include "state/plates.h"
 
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/// Smallest id for each fault; UINT64_MAX for none.
+/// Smallest id for each flag; UINT64_MAX for none.
 typedef struct diagnostics {
     uint64_t not_finite, overlap, force;
 } diagnostics;

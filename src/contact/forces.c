@@ -242,7 +242,7 @@ static void settle_ledger(scree_ledger *ledger, const contact_totals *totals, co
     ledger->turnover += fabs(damping) + fabs(friction) + fabs(plates);
 }
 
-/// Sums and memory, by the job; forces on walls and the books are not touched.
+/// Sums and memory, by the job; forces on walls and the ledger are not touched.
 static contact_totals evaluate(contact_job *job, scree_state *state, scree_work *work)
 {
     contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));

@@ -52,9 +52,9 @@ static void sum_faces(const scree_state *state, const scree_ghost_list *list, in
 
 typedef struct virial_task {
     const scree_state *state;
-    double bound;                    ///< m, power of two above the magnitude of every coordinate
-    double largest[SCREE_TEAM_MOST]; ///< m
-    scree_wide_sum sum[SCREE_TEAM_MOST];
+    double bound;                           ///< m, power of two above the magnitude of every coordinate
+    double largest[SCREE_THREAD_POOL_MOST]; ///< m
+    scree_wide_sum sum[SCREE_THREAD_POOL_MOST];
 } virial_task;
 
 static void bound_share(void *argument, int index, int count)

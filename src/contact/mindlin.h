@@ -1,5 +1,5 @@
 /// Mindlin's springs with sliders and dashpots in the tangent plane, and resistance to rolling and twisting: what
-/// hertz_mindlin and the laws that stick have in common (hertz_mindlin.h has the equations, slider.h the books).
+/// hertz_mindlin and the laws that stick have in common (hertz_mindlin.h has the equations, slider.h the ledger).
 #ifndef SCREE_CONTACT_MINDLIN_H
 #define SCREE_CONTACT_MINDLIN_H
 

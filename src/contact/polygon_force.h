@@ -1,5 +1,5 @@
 /// What the laws of polygons share: keys of a material, constants of a pair, the dashpots, the tangential spring, the
-/// books of a step (polygon_overlap.h, polygon_potential.h).
+/// ledger of a step (polygon_overlap.h, polygon_potential.h).
 ///
 /// With the elastic force f_e along the normal, of depth d = A / l and its rate d' = c a / l (a: the approach at the
 /// point, c: the chord; R 2.34 from the geometry and not from a difference):
@@ -13,7 +13,7 @@
 /// Ledger: damping and friction as of `linear`; `stiffness` is what the elastic force gave that is not stored:
 ///   W(n) - W(n-1) - (f_e(n-1) + f_e(n))/2 a dt
 /// of the energy W that the law says the contact has. Where f_e is its gradient that is of third order in the step, and
-/// not booked.
+/// not accumulated.
 #ifndef SCREE_CONTACT_POLYGON_FORCE_H
 #define SCREE_CONTACT_POLYGON_FORCE_H
 

@@ -12,7 +12,7 @@
 /// where h(n-1) is what the law makes of the displacement h'(n-1) that the last step ended with, when the stiffness
 /// changes (slider_rescale); else they are equal. The work done on the spring, <k h> . s dt, minus the change of its
 /// energy 1/2 k h^2 is friction - stiffness, exactly. Where a contact has opened, forces and h at n are zero: the same
-/// lines book what the spring still held as friction.
+/// lines take what the spring still held as friction.
 #ifndef SCREE_CONTACT_SLIDER_H
 #define SCREE_CONTACT_SLIDER_H
 

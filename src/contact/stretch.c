@@ -9,8 +9,8 @@
 typedef struct stretch_task {
     stretch_job job;
     stretch_kernel *kernel;
-    stretch_extremes found[SCREE_TEAM_MOST];
-    scree_integer_sum sum, part[SCREE_TEAM_MOST];
+    stretch_extremes found[SCREE_THREAD_POOL_MOST];
+    scree_integer_sum sum, part[SCREE_THREAD_POOL_MOST];
 } stretch_task;
 
 /// The part of a task's bodies that is a share.

@@ -367,7 +367,7 @@ __attribute__((noinline)) static void evaluate_one_by_one(contact_job *job, cons
     evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, v.geometry}, state, g);
 }
 
-static void evaluate_in_plane(contact_job *job, const scree_state *state, group *g)
+static void evaluate_2d(contact_job *job, const scree_state *state, group *g)
 {
     const variant v = job->variant;
     const int geometry = GEOMETRIES_IN_LANES == 1 ? 0 : v.geometry;
@@ -392,7 +392,7 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         place_of(v.dimension, &one, g.position);
         if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change
         SCREE_LAWS(GROUP_OF_LAW)
-        if (v.dimension == 2) evaluate_in_plane(job, state, &g);
+        if (v.dimension == 2) evaluate_2d(job, state, &g);
     }
 }
 

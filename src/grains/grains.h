@@ -67,6 +67,6 @@ void scree_grains_destroy(scree_grains *grains);
 int64_t scree_grains_find_material(const scree_grains *grains, size_t kind, const char *const *names, size_t count);
 
 /// Whether the grains lie in a plane, as those of a file without z do, and from where to where along z [m].
-bool scree_grains_are_plane(const scree_grains *grains, double *lower, double *upper);
+bool scree_grains_are_2d(const scree_grains *grains, double *lower, double *upper);
 
 #endif

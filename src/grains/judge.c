@@ -16,7 +16,7 @@ int64_t scree_grains_find_material(const scree_grains *grains, size_t kind, cons
     return *end == 0 && number >= 1 && number <= (int64_t)count ? number - 1 : -1;
 }
 
-bool scree_grains_are_plane(const scree_grains *grains, double *lower, double *upper)
+bool scree_grains_are_2d(const scree_grains *grains, double *lower, double *upper)
 {
     const double *z = grains->column[SCREE_GRAIN_Z];
     *lower = *upper = z ? z[0] : 0;

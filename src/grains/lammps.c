@@ -112,7 +112,7 @@ static scree_status read_atoms(grain_text *text, char *names, size_t count, cons
     for (size_t k = 0; k < text->cells; k++) read_column(text->cell[k], options, g, &rows, k);
     for (size_t k = 0; k < text->cells; k++)
         if (is_scaled(text->cell[k]) && (g->tilt[0] != 0 || g->tilt[1] != 0 || g->tilt[2] != 0))
-            return grain_text_refuse(text, k, error, "scaled places in a tilted box are not known: dump x, y, z");
+            return grain_text_refuse(text, k, error, "scaled positions in a tilted box are not known: dump x, y, z");
     scree_status status = grain_rows_begin(&rows, count, error);
     for (size_t i = 0; i < count && !status; i++) {
         if (!grain_text_line(text))

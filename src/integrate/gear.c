@@ -66,7 +66,7 @@ static own *own_state(const scree_state *state)
                      .offset = offsetof(gear_row, member), __VA_ARGS__)
 static const scree_field fields[] = {
     BODY(place, SCREE_FIELD_DOUBLE, 3 * (ORDER - 1), "m",
-         "predicted derivatives of the place, k = 2 to 5, times step_size^k / k!: those of x, of y, of z"),
+         "predicted derivatives of the position, k = 2 to 5, times step_size^k / k!: those of x, of y, of z"),
     BODY(turn, SCREE_FIELD_DOUBLE, 3 * (ORDER - 1), "rad", "the same of the angles about x, y, z"),
     BODY(begun, SCREE_FIELD_UINT8, 1, "1", "0: the derivatives are not there yet", SCREE_RANGE(0, 1)),
 };
@@ -264,7 +264,7 @@ typedef struct gear_task {
     lengths step;
     const uint32_t *moving; ///< rows; NULL: the first `count`
     size_t count;
-    scree_speeds speeds[SCREE_TEAM_MOST];
+    scree_speeds speeds[SCREE_THREAD_POOL_MOST];
 } gear_task;
 
 /// The sums have been read for the last time: they are left clear.

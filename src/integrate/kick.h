@@ -108,7 +108,7 @@ typedef struct scree_kick_task {
     bool drift;
     const uint32_t *moving; ///< rows; NULL: the first `count`
     size_t count;
-    scree_speeds speeds[SCREE_TEAM_MOST]; ///< as of scree_drift
+    scree_speeds speeds[SCREE_THREAD_POOL_MOST]; ///< as of scree_drift
 } scree_kick_task;
 
 /// Dimension, drift and (NULL) form and moving are constants here, and what is added is a copy, so that rows do not

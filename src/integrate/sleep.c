@@ -5,7 +5,7 @@
 /// Falls asleep: what touches something, is not prescribed, and has for `window` been quiet: its resultant force was
 /// below `force` times its weight, its resultant torque below that times its radius, and its surface so slow that it
 /// would have gone no farther than `motion` radii in the window. It is looked at every FALL_EVERY steps. Its velocity
-/// is taken away, and the kinetic energy booked.
+/// is taken away, and the kinetic energy accumulated in the ledger.
 ///
 /// Wakes: what something that is awake, a wall or a load acts on so that the mean of its resultant (with its weight and
 /// what others that sleep exert) over the last window, fading exponentially, exceeds `wake` times its weight: it would

@@ -72,7 +72,8 @@ static const scree_integrator integrator = {.steps = steps, .ticks = ticks, .fir
 
 const scree_module scree_module_two_timescales = {
     .name = "two_timescales",
-    .meaning = "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)",
+    .meaning =
+        "leapfrog of positions that repeats one large and several small steps while loading (Padbidri 2010, 2.4)",
     .choice_of = CHOICE_OF(IS("integrator.scheme")),
     .keys = (const scree_keys[]){KEYS_OF("integrator", keys, config)},
     .keys_count = 1,

@@ -1,4 +1,4 @@
-/// Sealing and checking, block by block. The checksum chain (base/checksum.h) goes by words, so a block is a multiple
+/// Writing and checking, block by block. The checksum chain (base/checksum.h) goes by words, so a block is a multiple
 /// of 8.
 #include "io/file_checksum.h"
 
@@ -10,20 +10,20 @@
 static const char mark[8] = {'S', 'C', 'R', 'E', 'E', 's', 'u', 'm'};
 enum { BLOCK = 1 << 16 };
 
-static void fill_checksum(uint64_t checksum, uint64_t size, unsigned char seal[SCREE_SEAL_SIZE])
+static void fill_checksum(uint64_t checksum, uint64_t size, unsigned char ending[SCREE_FILE_CHECKSUM_SIZE])
 {
     checksum = scree_checksum_word(checksum, size);
-    memcpy(seal, mark, sizeof mark);
-    memcpy(seal + sizeof mark, &checksum, sizeof checksum);
+    memcpy(ending, mark, sizeof mark);
+    memcpy(ending + sizeof mark, &checksum, sizeof checksum);
 }
 
-void scree_file_checksum_make(const void *bytes, size_t size, unsigned char seal[SCREE_SEAL_SIZE])
+void scree_file_checksum_make(const void *bytes, size_t size, unsigned char ending[SCREE_FILE_CHECKSUM_SIZE])
 {
-    fill_checksum(scree_checksum_bytes(0, bytes, size), size, seal);
+    fill_checksum(scree_checksum_bytes(0, bytes, size), size, ending);
 }
 
-/// Seal of the first `size` bytes from where `file` stands; false when there are fewer.
-static bool checksum_of_file(FILE *file, uint64_t size, unsigned char seal[SCREE_SEAL_SIZE])
+/// Checksum of the first `size` bytes from where `file` stands; false when there are fewer.
+static bool checksum_of_file(FILE *file, uint64_t size, unsigned char ending[SCREE_FILE_CHECKSUM_SIZE])
 {
     unsigned char block[BLOCK];
     uint64_t checksum = 0;
@@ -33,7 +33,7 @@ static bool checksum_of_file(FILE *file, uint64_t size, unsigned char seal[SCREE
         checksum = scree_checksum_bytes(checksum, block, wanted);
         left -= wanted;
     }
-    fill_checksum(checksum, size, seal);
+    fill_checksum(checksum, size, ending);
     return true;
 }
 
@@ -46,23 +46,24 @@ static off_t length_of(FILE *file)
 
 scree_status scree_file_checksum_append(const char *path, scree_error *error)
 {
-    unsigned char seal[SCREE_SEAL_SIZE];
+    unsigned char ending[SCREE_FILE_CHECKSUM_SIZE];
     FILE *file = fopen(path, "r+be");
     if (!file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
     off_t length = length_of(file);
-    bool good = length >= 0 && checksum_of_file(file, (uint64_t)length, seal) && fseeko(file, 0, SEEK_END) == 0 &&
-                fwrite(seal, 1, sizeof seal, file) == sizeof seal;
+    bool good = length >= 0 && checksum_of_file(file, (uint64_t)length, ending) && fseeko(file, 0, SEEK_END) == 0 &&
+                fwrite(ending, 1, sizeof ending, file) == sizeof ending;
     good = fclose(file) == 0 && good;
     return good ? SCREE_OK : scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
 }
 
 scree_status scree_file_checksum_check(const char *path, scree_error *error)
 {
-    unsigned char expected[SCREE_SEAL_SIZE], found[SCREE_SEAL_SIZE];
+    unsigned char expected[SCREE_FILE_CHECKSUM_SIZE], found[SCREE_FILE_CHECKSUM_SIZE];
     FILE *file = fopen(path, "rbe");
     if (!file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
     off_t length = length_of(file);
-    bool good = length >= SCREE_SEAL_SIZE && checksum_of_file(file, (uint64_t)length - SCREE_SEAL_SIZE, expected) &&
+    bool good = length >= SCREE_FILE_CHECKSUM_SIZE &&
+                checksum_of_file(file, (uint64_t)length - SCREE_FILE_CHECKSUM_SIZE, expected) &&
                 fread(found, 1, sizeof found, file) == sizeof found && memcmp(found, expected, sizeof found) == 0;
     (void)fclose(file);
     if (good) return SCREE_OK;

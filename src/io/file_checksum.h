@@ -9,10 +9,10 @@
 
 #include <stdint.h>
 
-enum { SCREE_SEAL_SIZE = 16 };
+enum { SCREE_FILE_CHECKSUM_SIZE = 16 };
 
-/// Seal of `size` bytes in memory.
-void scree_file_checksum_make(const void *bytes, size_t size, unsigned char seal[SCREE_SEAL_SIZE]);
+/// The checksum of `size` bytes in memory.
+void scree_file_checksum_make(const void *bytes, size_t size, unsigned char ending[SCREE_FILE_CHECKSUM_SIZE]);
 
 /// Appends its checksum to a file that has none.
 scree_status scree_file_checksum_append(const char *path, scree_error *error) SCREE_MUST_USE;

@@ -216,9 +216,10 @@ scree_status scree_hdf5_save(scree_hdf5 *hdf5)
     size_t size = hdf5->status ? 0 : take_ghost(hdf5);
     if (!hdf5->status) hdf5->status = scree_replace_begin(hdf5->path, &file, hdf5->error);
     if (!hdf5->status) {
-        unsigned char seal[SCREE_SEAL_SIZE];
-        scree_file_checksum_make(hdf5->image, size, seal);
-        bool whole = fwrite(hdf5->image, 1, size, file) == size && fwrite(seal, 1, sizeof seal, file) == sizeof seal;
+        unsigned char ending[SCREE_FILE_CHECKSUM_SIZE];
+        scree_file_checksum_make(hdf5->image, size, ending);
+        bool whole =
+            fwrite(hdf5->image, 1, size, file) == size && fwrite(ending, 1, sizeof ending, file) == sizeof ending;
         if (!whole) hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot write '%s'", hdf5->path);
         scree_status finished = scree_replace_finish(hdf5->path, file, whole, whole ? hdf5->error : NULL);
         if (whole) hdf5->status = finished;

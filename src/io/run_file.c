@@ -417,7 +417,7 @@ static scree_status reserve(const char *path, off_t bytes, scree_error *error)
     return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write %jd bytes to '%s'", (intmax_t)bytes, path);
 }
 
-/// Seals `temporary`, flushes it to the disk and renames it to `path`.
+/// Puts its checksum behind `temporary`, flushes it to the disk and renames it to `path`.
 static scree_status put_in_place(const char *temporary, const char *path, scree_error *error)
 {
     scree_status status = scree_file_checksum_append(temporary, error);

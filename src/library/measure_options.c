@@ -159,7 +159,7 @@ static scree_status read_axis(const char *text, scree_average_plan *plan, scree_
     if (strcmp(text, "apex") == 0) plan->axis = SCREE_AVERAGE_AXIS_APEX;
     if (plan->axis != SCREE_AVERAGE_AXIS_GIVEN) return SCREE_OK;
     if (!scree_units_parse(text, "m", &plan->axis_given, &problem)) return SCREE_OK;
-    return refuse(error, "axis", "mass, apex, or a place, such as 0 mm", "'%s' is no place of the axis", text);
+    return refuse(error, "axis", "mass, apex, or a position, such as 0 mm", "'%s' is no position of the axis", text);
 }
 
 /// What one unit of a file is in SI units: "1 mm", or "mm".

@@ -140,7 +140,7 @@ static void add_base(scree_theory *t, const char *const name[5], const scree_the
     theory_add(t, name[2], most.yy, "Pa", "largest sigma_yy on the base");
     const bool symmetric = of->slope[0] == of->slope[1];
     theory_add(t, name[3], (symmetric ? fabs(ray) : ray) * of->height, "m",
-               symmetric ? "distance of it from below the apex" : "its place, to the right from below the apex");
+               symmetric ? "distance of it from below the apex" : "its position, to the right from below the apex");
     theory_add(t, name[4], dip, "1", "1 - sigma_yy below the apex over the largest one");
 }
 

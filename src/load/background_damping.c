@@ -124,7 +124,7 @@ static void add_power(const scree_context *c, size_t row, const turn *t, scree_i
     scree_integer_sum_add(&power[1], after);
 }
 
-static void book(scree_state *state, double work)
+static void accumulate(scree_state *state, double work)
 {
     own_state(state)->work += work;
     state->ledger.turnover += fabs(work);
@@ -133,7 +133,7 @@ static void book(scree_state *state, double work)
 static scree_status follow(const scree_context *c, scree_error *error)
 {
     (void)error;
-    book(c->state, own_state(c->state)->pending);
+    accumulate(c->state, own_state(c->state)->pending);
     own_state(c->state)->pending = 0;
     return SCREE_OK;
 }
@@ -153,7 +153,7 @@ static scree_status damp(const scree_context *c, scree_error *error)
             if (power->pass == SCREE_INTEGER_SUM_ADDS) apply(state, row, &t);
         }
     double now = state->step_size, next = 2 * c->work->next_kick - now;
-    book(state, 0.5 * now * scree_integer_sum_total(&power[0]));
+    accumulate(state, 0.5 * now * scree_integer_sum_total(&power[0]));
     own_state(state)->pending = 0.5 * next * scree_integer_sum_total(&power[1]);
     return SCREE_OK;
 }

@@ -22,7 +22,7 @@ typedef struct scree_prescribed_config {
     char *until;                             ///< last one; auto: the last one
     scree_schedule motion[SCREE_COMPONENTS]; ///< m/s, rad/s; the constant NAN: free
     scree_load_profile profile;              ///< of `motion`
-    double gradient[9];                      ///< 1/s, added: factor x gradient x (place at the begin - origin)
+    double gradient[9];                      ///< 1/s, added: factor x gradient x (position at the begin - origin)
     scree_schedule factor;
     double origin[3];                      ///< m
     scree_schedule push[SCREE_COMPONENTS]; ///< N, N m; the constant NAN: none

@@ -96,8 +96,8 @@ static double kinetic_of(const scree_model *model, const scree_state *state, siz
                   scree_body_inertia(state, row) * scree_dot(birth->spin, birth->spin));
 }
 
-static void book(const scree_model *model, scree_state *state, const scree_work *work, size_t row,
-                 const scree_birth *birth)
+static void account_for(const scree_model *model, scree_state *state, const scree_work *work, size_t row,
+                        const scree_birth *birth)
 {
     scree_vector position, next;
     const double kinetic = kinetic_of(model, state, row, birth);
@@ -124,7 +124,7 @@ scree_status scree_birth_append(const scree_model *model, scree_state *state, co
     memcpy(state->sampled_velocity[*row], birth->velocity, sizeof(scree_vector));
     scree_births_of(state)->time[*row] = scree_state_time(state);
     note_speed(state, *row);
-    if (work->ledger) book(model, state, work, *row, birth);
+    if (work->ledger) account_for(model, state, work, *row, birth);
     return SCREE_OK;
 }
 

@@ -233,6 +233,6 @@ scree_status scree_drop_2d_add(scree_drop_2d *drop, size_t index, double x, scre
         if (next.kind == MEET_REST || straddled) return rest(drop, index, &disc, next.disc, error);
         disc.support = next.disc;
     }
-    return scree_error_set(error, SCREE_ERROR_INPUT, "disc %zu of radius %g m finds no place of rest", index,
+    return scree_error_set(error, SCREE_ERROR_INPUT, "disc %zu of radius %g m finds no position of rest", index,
                            disc.radius);
 }

@@ -326,6 +326,6 @@ scree_status scree_drop_3d_add(scree_drop_3d *drop, size_t index, double x, doub
         else if (!roll(drop, &sphere, &holders, &hold.path))
             break;
     }
-    return scree_error_set(error, SCREE_ERROR_INPUT, "sphere %zu of radius %g m finds no place of rest", index,
+    return scree_error_set(error, SCREE_ERROR_INPUT, "sphere %zu of radius %g m finds no position of rest", index,
                            sphere.radius);
 }

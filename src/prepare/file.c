@@ -180,7 +180,7 @@ static void check_dimension(const judged *j)
     if (j->config->dimension == 3 && !j->g->column[SCREE_GRAIN_Z])
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
                           "the file has no column z: its grains lie in a plane, and dimension is 3");
-    else if (j->config->dimension == 2 && !scree_grains_are_plane(j->g, &lower, &upper))
+    else if (j->config->dimension == 2 && !scree_grains_are_2d(j->g, &lower, &upper))
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
                           "z of the grains goes from %.6g to %.6g m: they lie in space, and dimension is 2", lower,
                           upper);

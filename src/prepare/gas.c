@@ -201,11 +201,12 @@ static scree_status does_not_fit(const scree_model *model, const scree_config_st
                                  const scree_packing *packing, double wanted, double reached, scree_error *error)
 {
     const bool in_3d = packing->dimension == 3;
-    return scree_prepare_error(error, model, stage, "solid_fraction",
-                               "%zu %s do not fit at random at a solid fraction of %.3g: there was room up to %.2g; "
-                               "ask for %.2g or less, or prepare with drop_and_roll (about %s) or %s",
-                               packing->count, in_3d ? "spheres" : "discs", wanted, reached, 0.95 * reached,
-                               in_3d ? "0.58" : "0.8", in_3d ? "growth (0.6)" : "hexagonal (0.9)");
+    return scree_prepare_error(
+        error, model, stage, "solid_fraction",
+        "%zu %s do not fit at random at a solid fraction of %.3g: there was room up to %.2g; "
+        "ask for %.2g or less, or prepare with a method that lays particles on each other (about %s) or %s",
+        packing->count, in_3d ? "spheres" : "discs", wanted, reached, 0.95 * reached, in_3d ? "0.58" : "0.8",
+        in_3d ? "lets them grow (0.6)" : "has a lattice (0.9)");
 }
 
 /// Random addition of all bodies into the box of the packing.
@@ -307,7 +308,7 @@ static const scree_preparation preparation = {
 
 const scree_module scree_module_gas = {
     .name = "gas",
-    .meaning = "loose random places without contacts",
+    .meaning = "loose random positions without contacts",
     .choice_of = CHOICE_OF(IS("stages.prepare.method")),
     .keys = (const scree_keys[]){KEYS_OF("stages.prepare", keys, config)},
     .keys_count = 1,

@@ -333,7 +333,7 @@ static const scree_preparation preparation = {.periodic = true, .loose = true, .
 
 const scree_module scree_module_growth = {
     .name = "growth",
-    .meaning = "particles grow at random places and push each other away: dense and isotropic, without contacts",
+    .meaning = "particles grow at random positions and push each other away: dense and isotropic, without contacts",
     .choice_of = CHOICE_OF(IS("stages.prepare.method")),
     .keys = (const scree_keys[]){KEYS_OF("stages.prepare", keys, config)},
     .keys_count = 1,

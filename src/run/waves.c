@@ -38,7 +38,7 @@ typedef struct config {
 static const scree_key receiver_keys[] = {
     KEY(listed, name, SCREE_KEY_WORD, FROM("1"), TO("31"), .meaning = "Name in the tables."),
     KEY(listed, place, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"),
-        .meaning = "The particle whose centre is nearest to this place is listened to."),
+        .meaning = "The particle whose centre is nearest to this position is listened to."),
 };
 static const scree_section receiver_table[] = {TABLE("receivers", "A place to listen at.", receiver_keys)};
 static const scree_choice axes[] = {
@@ -151,14 +151,14 @@ static const scree_field fields[] = {
                       "id of the body that is listened to", .offset = offsetof(scree_receiver, id),
                       SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     SCREE_FIELD_GROUP(waves, memory, receivers, receiver, scree_receiver, "waves/place", SCREE_FIELD_DOUBLE, 3, "m",
-                      "its place when the recording began", .offset = offsetof(scree_receiver, place)),
+                      "its position when the recording began", .offset = offsetof(scree_receiver, place)),
     SCREE_FIELD_GROUP(waves, memory, times, time, double, "waves/time", SCREE_FIELD_DOUBLE, 1, "s",
                       "time of the record"),
     SCREE_FIELD_GROUP(waves, memory, values, value, double[3], "waves/displacement", SCREE_FIELD_DOUBLE, 3, "m",
                       "of the receivers, then of the layers, record by record"),
     SCREE_FIELD_BODY(waves, memory, reference, scree_vector, "waves/reference", SCREE_FIELD_DOUBLE, 3, "m",
-                     "place when the recording of layers began", .optional = true),
-    SCREE_FIELD_ONE(waves, memory, first, "waves/first", SCREE_FIELD_DOUBLE, 1, "m", "place of the first layer"),
+                     "position when the recording of layers began", .optional = true),
+    SCREE_FIELD_ONE(waves, memory, first, "waves/first", SCREE_FIELD_DOUBLE, 1, "m", "position of the first layer"),
     SCREE_FIELD_ONE(waves, memory, spacing, "waves/spacing", SCREE_FIELD_DOUBLE, 1, "m", "distance of the layers"),
     SCREE_FIELD_ONE(waves, memory, begun, "waves/begun", SCREE_FIELD_UINT64, 1, "1",
                     "evaluations of forces before the recording", SCREE_RANGE_TO(SCREE_LIMIT_EVALUATIONS)),

@@ -3,9 +3,9 @@
 /// Method. The histories of the old list that are not zero (in any bit) are packed into state->contact, the form in
 /// which they also come from a checkpoint. When the rows have their new order, a counting sort puts them by the lower
 /// row of their pair; the new list then finds each one among the few of its row. Old and new order differ little, so
-/// all of it runs through memory nearly in order. Linear cost. Booking and rolling rows go along with the histories
-/// where a law has them; those of pairs that are held go back to the persistent list. A pair that has left the list
-/// loses its history; it is separated by more than the skin then.
+/// all of it runs through memory nearly in order. Linear cost. Rows of last forces and of rolling go along with the
+/// histories where a law has them; those of pairs that are held go back to the persistent list. A pair that has left
+/// the list loses its history; it is separated by more than the skin then.
 #include "search/search.h"
 
 #include <string.h>

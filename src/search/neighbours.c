@@ -50,7 +50,7 @@ typedef struct displacement_task {
     const double *deformation;
     const uint32_t *moving; ///< rows; NULL: the first `count`
     size_t count;
-    double square[SCREE_TEAM_MOST];
+    double square[SCREE_THREAD_POOL_MOST];
 } displacement_task;
 
 static void displacement_share(void *argument, int index, int count)
@@ -156,18 +156,18 @@ void scree_pair_lists_destroy(scree_work *work)
 
 /// Makes room for `count` pairs and the padding, with the rows that the law needs, and with several `laws` their
 /// numbers; contents are lost when it grows.
-static scree_status reserve_list(const list_arrays *list, size_t count, bool books, bool rolls, bool laws,
+static scree_status reserve_list(const list_arrays *list, size_t count, bool works, bool rolls, bool laws,
                                  scree_error *error)
 {
     laws = laws && list->law;
-    bool complete = (!books || *list->last_force) && (!rolls || *list->rolling) && (!laws || *list->law);
+    bool complete = (!works || *list->last_force) && (!rolls || *list->rolling) && (!laws || *list->law);
     if (complete && count + SCREE_PAIR_PADDING <= *list->capacity) return SCREE_OK;
     size_t room = count + count / 8 + 4 * SCREE_PAIR_PADDING;
     release_list(list);
     scree_status status = scree_allocate(list->one, room, sizeof **list->one, error);
     if (!status) status = scree_allocate(list->other, room, sizeof **list->other, error);
     if (!status) status = scree_allocate(list->history, room, sizeof **list->history, error);
-    if (!status && books) status = scree_allocate(list->last_force, room, sizeof **list->last_force, error);
+    if (!status && works) status = scree_allocate(list->last_force, room, sizeof **list->last_force, error);
     if (!status && rolls) status = scree_allocate(list->rolling, room, sizeof **list->rolling, error);
     if (!status && laws) status = scree_allocate(list->law, room, sizeof **list->law, error);
     if (!status) *list->capacity = room;
@@ -191,7 +191,7 @@ typedef struct pairs_task {
     const scree_work *work;
     scree_search *search;
     scree_pair_search *find;
-    bool failed[SCREE_TEAM_MOST];
+    bool failed[SCREE_THREAD_POOL_MOST];
 } pairs_task;
 
 static void pairs_share(void *argument, int index, int count)
@@ -332,17 +332,17 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     pairs->count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);
-    bool books = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model),
+    bool works = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model),
          laws = model->pair_laws > 0;
     bool held_keeps = held > 0 && scree_model_held_traits(model)->keeps_last_force[state->dimension - 2];
     bool held_rolls = held > 0 && scree_model_held_traits(model)->rolling;
-    scree_status status = reserve_list(&of_pairs, count, books || held_keeps, rolls || held_rolls, false, error);
+    scree_status status = reserve_list(&of_pairs, count, works || held_keeps, rolls || held_rolls, false, error);
     if (!status) status = scree_held_list(state, &search->held, pairs, error);
     scree_release(&pairs->hint);
     if (!status && scree_model_traits(model)->areas)
         status = scree_allocate(&pairs->hint, count + 1, sizeof *pairs->hint, error);
-    if (!status) status = reserve_list(&of_walls, wall, books, rolls, laws, error);
-    if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, laws, error);
+    if (!status) status = reserve_list(&of_walls, wall, works, rolls, laws, error);
+    if (!status && work->wall_set) status = reserve_list(&of_elements, element, works, rolls, laws, error);
     if (status) {
         scree_pairs_clear(pairs);
         return status;

@@ -20,7 +20,7 @@ scree_status scree_work_create(scree_work *work, const scree_model *model, int t
 {
     memset(work, 0, sizeof *work);
     work->threads = threads > 1 ? threads : 1;
-    if (work->threads > SCREE_TEAM_MOST) work->threads = SCREE_TEAM_MOST;
+    if (work->threads > SCREE_THREAD_POOL_MOST) work->threads = SCREE_THREAD_POOL_MOST;
     work->ledger = true;
     work->skin = default_skin * model->mean_radius;
     scree_status status = scree_allocate(&work->search, 1, sizeof *work->search, error);

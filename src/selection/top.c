@@ -127,7 +127,7 @@ static const scree_selection_kind kind = {.choose = choose};
 
 const scree_module scree_module_select_top = {
     .name = "top",
-    .meaning = "The one particle at the top of the sample that is nearest to a place.",
+    .meaning = "The one particle at the top of the sample that is nearest to a position.",
     .choice_of = CHOICE_OF(IS("selections")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, select_top)},
     .keys_count = 1,

@@ -131,7 +131,7 @@ scree_status scree_polygon_check(int count, const double (*corner)[2], scree_err
     double extent = 0;
     for (int k = 0; k < count; k++) {
         if (!isfinite(corner[k][0]) || !isfinite(corner[k][1]))
-            return scree_error_set(error, SCREE_ERROR_INPUT, "corner %d (from 0) is (%g, %g): not a place", k,
+            return scree_error_set(error, SCREE_ERROR_INPUT, "corner %d (from 0) is (%g, %g): not a position", k,
                                    corner[k][0], corner[k][1]);
         extent = fmax(extent, distance(corner[k], corner[0]));
     }

@@ -4,7 +4,7 @@
 #include "base/vectors.h"
 
 const scree_choice scree_wall_sides[] = {
-    {"inside", SCREE_SIDE_INSIDE, "the particles are inside: a container"},
+    {"inside", SCREE_SIDE_INSIDE, "the particles are inside of it"},
     {"outside", SCREE_SIDE_OUTSIDE, "the particles are outside: a solid body, or a tube"},
     {0},
 };

@@ -29,7 +29,7 @@ static void place(const void *own, scree_source_place *place)
 
 const scree_module scree_module_point = {
     .name = "point",
-    .meaning = "All particles are born at one place.",
+    .meaning = "All particles are born at one position.",
     .choice_of = CHOICE_OF(IS("sources", .meaning = "one place")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,

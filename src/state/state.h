@@ -38,7 +38,7 @@ typedef struct scree_row {
     double mass; ///< kg
 } scree_row;
 
-/// What a body is there for. More kinds follow: fixed, driven.
+/// What a body is there for. Which components of its motion are prescribed is said by `held` of the state.
 typedef enum scree_mark {
     SCREE_MARK_GRAIN,    ///< of the assembly
     SCREE_MARK_MEMBRANE, ///< of a membrane around it

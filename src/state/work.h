@@ -180,7 +180,7 @@ static inline uint32_t scree_parent_row(const scree_state *state, const scree_wo
 /// Threads that work now.
 static inline int scree_work_shares(const scree_work *work)
 {
-    int most = work->threads < 1 ? 1 : work->threads > SCREE_TEAM_MOST ? SCREE_TEAM_MOST : work->threads;
+    int most = work->threads < 1 ? 1 : work->threads > SCREE_THREAD_POOL_MOST ? SCREE_THREAD_POOL_MOST : work->threads;
     return work->size.now > 0 && work->size.now < most && !work->keep_threads ? work->size.now : most;
 }
 

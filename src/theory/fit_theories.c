@@ -95,13 +95,13 @@ static scree_status layer(const scree_fit_theory *theory, const scree_fit_parame
         .name = (name_), .unit = (unit_), .meaning = (meaning_), .value = (start), .free = true                        \
     }
 #define PILE                                                                                                           \
-    FREE("weight", "N/m3", "density times gravity", 1), HELD("apex_x", "m", "place of the apex", 0),                   \
-        HELD("apex_y", "m", "place of the apex", 0)
+    FREE("weight", "N/m3", "density times gravity", 1), HELD("apex_x", "m", "position of the apex", 0),                \
+        HELD("apex_y", "m", "position of the apex", 0)
 #define ONE_SLOPE HELD("slope", "rad", "of both sides, also the angle of internal friction", 0.5)
 #define TWO_SLOPES                                                                                                     \
     HELD("slope_left", "rad", "also the angle of internal friction", 0.5),                                             \
         HELD("slope_right", "rad", "also the angle of internal friction", 0.5)
-#define LOAD  FREE("force", "N/m", "load a length", 1), HELD("load_x", "m", "place of the load", 0)
+#define LOAD  FREE("force", "N/m", "load a length", 1), HELD("load_x", "m", "position of the load", 0)
 #define THICK HELD("thickness", "m", "of the layer", 1)
 
 const scree_fit_theory scree_fit_theories[] = {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The structure that docs/architecture.md promises: a file includes only from its own layer or layers above it in the table;
 # the command line includes only the public headers; the choices of a case that are modules are known by name in their own
-# files alone; the library never exits, aborts or prints; files stay below 600 lines.
+# files alone; the library never exits, aborts or prints; no circle of files; files stay below 600 lines, functions below 60,
+# half of them within 12; words are those of the field.
 set -u
 source_dir=${SCREE_SOURCE_DIR:?}
 cd "$source_dir" || exit 1
@@ -65,6 +66,42 @@ while IFS= read -r hit; do complain "$hit: only the model reads the config" ; do
     < <(grep -rnE 'model(\.|->)config' src --include='*.[ch]' | grep -vE '^src/model/|scree_config_own\(&scree_module_')
 while IFS= read -r hit; do complain "$hit: the library never exits, aborts or prints"; done \
     < <(grep -nHE '(^|[^a-z_>.])(exit|abort|printf|puts|perror)\(' $(find src -name '*.[ch]' ! -path 'src/cli/*') | grep -vE '///|// ')
+# Schemes, stages and methods whose names are more than a word are known to their own files: messages take choices from the table.
+while IFS= read -r file; do
+    name=$(sed -nE 's/^    \.name = "([a-z]+_[a-z_]+)",$/\1/p' "$file" | head -n 1)
+    [ -n "$name" ] || continue
+    while IFS= read -r hit; do complain "$hit knows the module $name of $file"; done \
+        < <(find src -name '*.[ch]' ! -path "${file%.c}.*" ! -path src/case/former.c -exec \
+            awk -v name="$name" '{ sub(/\/\/.*/, "") } $0 ~ "\"([^\"]*[^a-z_\"/])?" name "([^a-z_][^\"]*)?\"" && !/\.standard = / { print FILENAME ":" FNR }' {} +)
+done < <(grep -lE 'CHOICE_OF\(IS\("(integrator.scheme|stages|stages.prepare.method)"' $(find src -name '*.c'))
+# Functions: from the line of the name to the closing brace; one line is as long as it is.
+while IFS= read -r hit; do complain "$hit"; done < <(awk '
+    FNR == 1 { start = 0 }
+    /^[A-Za-z_]/ { start = FNR; name = $0 }
+    /^[A-Za-z_].*\) \{.*\}$/ && !/=/ { length_of[++count] = 1 }
+    /^\{$/ { open = name ~ /\(/ }
+    /^\}/ && open {
+        lines = FNR - start0 + 1
+    }
+    /^\{$/ { start0 = start }
+    /^\}/ && open {
+        length_of[++count] = lines
+        if (lines > 60) print FILENAME ":" start0 ": a function of " lines " lines"
+        open = 0
+    }
+    END {
+        for (k = 1; k <= count; k++) { number[length_of[k]]++; most = length_of[k] > most ? length_of[k] : most }
+        for (k = 1; k <= most; k++) { below += number[k]; if (2 * below >= count) break }
+        if (count < 3000) print "only " count " functions were found"
+        if (k > 12) print "half of the functions have more than 12 lines: " k
+    }' $(find src include -name '*.[ch]'))
+# No circle: what a source and its header include, other pairs as one.
+circle=$(grep -HoE '^#include "[a-z]+/[a-z0-9_]+\.h"' $(find src -name '*.[ch]') |
+    sed -E 's,^src/([a-z0-9_/]+)\.[ch]:#include "([a-z0-9_/]+)\.h",\1 \2,' | awk '$1 != $2' | sort -u | tsort 2>&1 >/dev/null | head -n 5)
+[ -z "$circle" ] || complain "a circle of files: $circle"
+# Words that the field does not use (a YAML file has indentation).
+while IFS= read -r hit; do complain "$hit: a word that the field does not use"; done \
+    < <(grep -rniwE 'bookings?|booked|foresight|indentations?|teams?|seals?|deposited' src include docs/*.md docs/theory --include='*.[ch]' --include='*.md' | grep -v '^src/case/yaml.c' | cut -c1-120)
 while read -r lines file; do [ "$lines" -gt 600 ] && complain "$file has $lines lines"; done < <(wc -l $(find src include -name '*.[ch]') | grep -v total)
 [ "$failures" -eq 0 ] && echo "structure: ${#layers[@]} layers, $(find src -name '*.[ch]' | wc -l) files, no complaint"
 exit $((failures > 0))

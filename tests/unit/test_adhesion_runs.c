@@ -1,6 +1,6 @@
 /// Runs of grains that stick: impacts against e^2 = 1 - (v_s / v)^2 (Thornton and Ning 1998) and against the integrated
-/// motion with dashpots, momentum and the books; grains that hang below a ceiling; and an assembly with necks, of which
-/// nothing but the state decides: threads, instruction sets, age of the lists, a restart in mid-neck.
+/// motion with dashpots, momentum and the ledger; grains that hang below a ceiling; and an assembly with necks, of
+/// which nothing but the state decides: threads, instruction sets, age of the lists, a restart in mid-neck.
 #include "run_fixture.h"
 
 #include "net_variations.h"

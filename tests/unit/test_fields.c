@@ -218,7 +218,7 @@ typedef struct memory_row {
     size_t array, first, size;
 } memory_row;
 
-enum { HISTORY, BOOKING, ROLLING, BOOKED, CONSTANT, MEMORY_ROWS };
+enum { HISTORY, LAST_FORCE, ROLLING, LAST_ROLLING, CONSTANT, MEMORY_ROWS };
 
 #define HELD(member_, type)                                                                                            \
     {                                                                                                                  \
@@ -270,12 +270,12 @@ static void memory_is_what_the_traits_say(void **unused)
                 scree_state state = {.dimension = dimension};
                 state.law[list] = (scree_remembered_law){scree_modules[m], option};
                 assert_true(number_used(&state, list, HISTORY) > 0);
-                assert_true((number_used(&state, list, BOOKING) > 0) == traits->keeps_last_force[dimension - 2]);
+                assert_true((number_used(&state, list, LAST_FORCE) > 0) == traits->keeps_last_force[dimension - 2]);
                 assert_true((number_used(&state, list, ROLLING) > 0) == traits->rolling);
                 assert_true((number_used(&state, list, CONSTANT) > 0) == traits->holds);
                 // Dashpots of all that rolls, or of nothing: constant torques have none.
-                const int booked = number_used(&state, list, BOOKED);
-                assert_true(booked == 0 || booked == number_used(&state, list, ROLLING));
+                const int last = number_used(&state, list, LAST_ROLLING);
+                assert_true(last == 0 || last == number_used(&state, list, ROLLING));
             }
 }
 

@@ -270,7 +270,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         }
         // Round-off of some 1e-13 a term; the table computes forces again, as above.
         if (!(fabs(s.state.ledger.periodic - last - work) < 1e-9 * size))
-            fail_msg("booked %.17g, found %.17g", s.state.ledger.periodic - last, work);
+            fail_msg("accumulated %.17g, found %.17g", s.state.ledger.periodic - last, work);
         scree_contact_table_destroy(&table);
         periodic_destroy(&s);
     }
@@ -404,7 +404,7 @@ static void rates_and_stresses_are_mixed(void **unused)
         }
         // Every step with the gradient that it had; sums of as many terms.
         double last = s.state.ledger.periodic - before;
-        if (!(fabs(last - work) < 1e-12 * fabs(work))) fail_msg("booked %.17g, found %.17g", last, work);
+        if (!(fabs(last - work) < 1e-12 * fabs(work))) fail_msg("accumulated %.17g, found %.17g", last, work);
         periodic_destroy(&s);
     }
 }

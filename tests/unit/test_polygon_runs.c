@@ -165,7 +165,7 @@ static double residual_of(const char *text, const char *const *overrides, size_t
 
 #define LOSSLESS "materials.0.friction=0", "materials.0.damping_constant=0"
 
-/// Under the law with a potential nothing is booked, and the energy is kept with the order of the scheme.
+/// Under the law with a potential nothing is accumulated, and the energy is kept with the order of the scheme.
 static void a_potential_keeps_its_energy(void **unused)
 {
     (void)unused;

@@ -137,7 +137,7 @@ static void what_rests_is_what_contacts_exert(void **unused)
     }
 }
 
-/// What is taken from those that fall asleep is booked: the balance closes as with all awake.
+/// What is taken from those that fall asleep is accumulated: the balance closes as with all awake.
 static void the_balance_closes(void **unused)
 {
     (void)unused;

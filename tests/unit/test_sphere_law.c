@@ -64,7 +64,7 @@ static void set_slip(fixture *f, const double slip[3])
 
 static const double none[3] = {0};
 
-/// Indentation as the state has it, contact radius and dashpot of the pair of first materials.
+/// Overlap as the state has it, contact radius and dashpot of the pair of first materials.
 typedef struct geometry {
     double d, radius, eta;
 } geometry;

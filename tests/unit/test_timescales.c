@@ -143,7 +143,7 @@ static void the_energy_balance_closes(void **unused)
         worst = fmax(worst, fabs(change) / (r.s.state.ledger.turnover - turnover));
     }
     double last = fabs(r.s.state.ledger.scheme - scheme) / (r.s.state.ledger.turnover - turnover);
-    print_message("residual %.2g of the work, booked for changes of the step %.2g\n", worst, last);
+    print_message("residual %.2g of the work, accumulated for changes of the step %.2g\n", worst, last);
     // The trapezoids' error at large steps of 2e-5 s, as with that step alone; well below what changes of the step do.
     assert_true(worst < 1e-5 && last > 10 * worst);
     finish(&r);

@@ -92,7 +92,7 @@ static void planes_are_built_in_walls(void **unused)
             for (int step = 0; step < STEPS; step++)
                 for (int k = 0; k < VALUES; k++) size[k / 3] = fmax(size[k / 3], fabs(one[step][k]));
             assert_true(size[0] > 0.1);
-            // Indentations of 1e-6 m are differences of numbers of 1e-2 m: 1e-16 x 1e-2 / 1e-6; 400 steps, in which
+            // Overlaps of 1e-6 m are differences of numbers of 1e-2 m: 1e-16 x 1e-2 / 1e-6; 400 steps, in which
             // friction that predicts the slip passes through its steepest part.
             for (int step = 0; step < STEPS; step++)
                 for (int k = 0; k < VALUES; k++) assert_near(other[step][k], one[step][k], 1e-9 * size[k / 3]);
@@ -145,7 +145,7 @@ static void check_contact(world *w, const double foot[3], const double normal[3]
         expected_force(w, place, speeds[moves], spins[moves], normal, distance, force, torque);
         scree_body_force(&w->f.model, &w->f.state, 0, found, turned);
         assert_int_equal(w->f.state.sum[0].contacts, 1);
-        // Indentations are differences of numbers of the size of some centimetres: 1e-16 x 2e-2 / 1e-5, and quanta.
+        // Overlaps are differences of numbers of the size of some centimetres: 1e-16 x 2e-2 / 1e-5, and quanta.
         double size = sqrt(scree_dot(force, force));
         assert_true(size > 1);
         for (int k = 0; k < 3; k++) {

@@ -131,7 +131,7 @@ static void check_direction(world *w, const double place[3], const double from[3
     sphere_force(&w->f, 0, force, torque);
     double expected = w->f.model.walls[0].value[HERTZ_NORMAL] * sqrt(R) * pow(R - distance, 1.5);
     assert_int_equal(w->f.state.sum[0].contacts, 1);
-    // Indentations are differences of numbers of the size of a centimetre: 1e-16 x 1e-2 / 1e-5, and quanta.
+    // Overlaps are differences of numbers of the size of a centimetre: 1e-16 x 1e-2 / 1e-5, and quanta.
     for (int k = 0; k < 3; k++) assert_near(force[k], expected * direction[k] / distance, 1e-9 * expected);
 }
 
@@ -193,7 +193,7 @@ static void test_deep_contact(void **state)
         world_forces(&w);
         sphere_force(&w.f, 0, force, torque);
         assert_int_equal(w.f.state.sum[0].contacts, 1);
-        // Indentations are differences of numbers of the size of a centimetre: 1e-16 x 1e-2 / 1e-4.
+        // Overlaps are differences of numbers of the size of a centimetre: 1e-16 x 1e-2 / 1e-4.
         assert_near(force[2], expected, 1e-12 * expected);
         assert_near(hypot(force[0], force[1]), 0, 1e-12 * expected);
     }

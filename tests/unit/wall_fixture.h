@@ -207,7 +207,7 @@ static inline scree_energy world_energy(world *w, size_t *contacts)
     return energy;
 }
 
-/// Indentation of a sphere that rests with its weight on one contact: w = K sqrt(R) d^1.5.
+/// Overlap of a sphere that rests with its weight on one contact: w = K sqrt(R) d^1.5.
 static inline double world_rest(const world *w, double radius, double gravity)
 {
     double weight = fixture_mass(&w->f.model, 0, radius) * gravity;

@@ -11,7 +11,7 @@
 #include <time.h>
 
 typedef struct tally {
-    atomic_int done[SCREE_TEAM_MOST];
+    atomic_int done[SCREE_THREAD_POOL_MOST];
     int count;
 } tally;
 
@@ -27,7 +27,7 @@ static void run_many(scree_thread_pool **pool, int count, int tasks)
     tally t = {.count = count};
     for (int k = 0; k < tasks; k++) {
         scree_thread_pool_run(pool, count, count_share, &t);
-        for (int i = 0; i < SCREE_TEAM_MOST; i++) assert_int_equal(t.done[i], i < count ? k + 1 : 0);
+        for (int i = 0; i < SCREE_THREAD_POOL_MOST; i++) assert_int_equal(t.done[i], i < count ? k + 1 : 0);
     }
 }
 
@@ -68,7 +68,7 @@ static void without_memory_the_caller_does_all(void **unused)
 
 /// What a share has written is there when the task returns, and what the caller writes between two tasks is seen.
 typedef struct relay {
-    int value[SCREE_TEAM_MOST]; // plain: the thread pool orders them
+    int value[SCREE_THREAD_POOL_MOST]; // plain: the thread pool orders them
 } relay;
 
 static void count_up(void *argument, int index, int count)
