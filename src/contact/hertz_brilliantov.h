@@ -2,8 +2,9 @@
 /// the slip speed (P 2.A1-2.A7, 3.A1-3.A3, corrected as in docs/theory.md).
 ///   f_n = max(K d^1.5 + T K d^0.5 d', 0), K = normal_stiffness sqrt(R_eff); with attraction f_n without max
 ///   f_t = -mu |f_n| (|s| / v_R)^(1/c) s / |s|, zero at s = 0
-/// The power is 2^(log(|s| / v_R) / (c log 2)) with SLEEF's functions: the error of the logarithm is divided by c. In
-/// two dimensions the slip is a signed number, so no root is needed.
+/// With a whole c the power is a rough guess and one of Halley's steps for y^c = |s| / v_R (whole_power.h), to
+/// round-off; otherwise 2^(log(|s| / v_R) / (c log 2)) with SLEEF's functions: the error of the logarithm is divided by
+/// c. In two dimensions the slip is a signed number, so no root is needed.
 ///
 /// Two updates of friction. Explicit: s is the slip of the velocities that brought the bodies here; a slip slower than
 /// about mu f_n dt / m turns its sign in every step. Implicit (docs/friction-update.md): s = s* is the slip after the
@@ -21,13 +22,14 @@
 /// normal damping force, for the ledger.
 /// Ledger: damping <f_n - K d^1.5> d' dt, friction -<f_t> . s dt (mean forces, rates of the middle of the step:
 /// kinematics.h).
-/// Cost: 2 roots, 2 divisions (3D: 3 and 3), one logarithm, one exponential a contact; implicit: 7 divisions and two
-/// logarithms and exponentials more.
+/// Cost: 2 roots, 3 divisions (3D: 3 and 4) and a power of c a contact; implicit: 7 divisions and a power of c more.
+/// With a c that is not whole one logarithm and one exponential, implicit three.
 #ifndef SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 #define SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 
 #include "contact/hertz.h"
 #include "contact/law.h"
+#include "contact/whole_power.h"
 
 /// Option.
 enum { BRILLIANTOV_IMPLICIT = 1 };
@@ -41,6 +43,7 @@ enum {
     BRILLIANTOV_VELOCITY,         ///< m/s, v_R
     BRILLIANTOV_INVERSE_VELOCITY, ///< s/m
     BRILLIANTOV_LEAST,            ///< N, least normal force: 0, or with attraction that of all numbers
+    BRILLIANTOV_WHOLE,            ///< c where it is a whole number up to WHOLE_POWER_MOST, else 0
 };
 
 typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
@@ -61,6 +64,7 @@ static inline void brilliantov_numbers(double time, double exponent, double velo
     number[BRILLIANTOV_INVERSE_EXPONENT] = inverse_exponent;
     number[BRILLIANTOV_BINARY_EXPONENT] = inverse_exponent * M_LOG2E;
     number[BRILLIANTOV_EXPONENT] = 1.0 / inverse_exponent;
+    number[BRILLIANTOV_WHOLE] = exponent <= WHOLE_POWER_MOST && exponent == floor(exponent) ? exponent : 0;
     number[BRILLIANTOV_VELOCITY] = velocity;
     number[BRILLIANTOV_INVERSE_VELOCITY] = 1.0 / velocity;
 }
@@ -88,17 +92,38 @@ SCREE_INLINE lanes power_of(lanes a, double binary)
     return lanes_exp2(lanes_log(a) * binary);
 }
 
+/// A step of Halley's towards y of y^c + g y = b.
+SCREE_INLINE lanes nearer_root(lanes y, lanes b, lanes g, const law_settings *settings)
+{
+    const double c = settings->number[BRILLIANTOV_EXPONENT], tiny = 1e-300; // against 0 / 0 where nothing slips
+    const unsigned whole = (unsigned)settings->number[BRILLIANTOV_WHOLE];
+    const lanes power = whole ? whole_power(y, whole) : power_of(y, c * M_LOG2E);
+    const lanes excess = power + g * y - b, slope = c * power + g * y, bend = (c * (c - 1.0)) * power;
+    return y - y * (2.0 * (excess * slope) / (2.0 * (slope * slope) - excess * bend + tiny));
+}
+
+/// About b^(1/c), at most `limit`, which is 0 where b is.
+SCREE_INLINE lanes first_root(lanes b, lanes limit, const law_settings *settings)
+{
+    const bool whole = settings->number[BRILLIANTOV_WHOLE] > 0;
+    return lanes_at_most(whole ? rough_root(b, settings->number[BRILLIANTOV_INVERSE_EXPONENT])
+                               : power_of(b, settings->number[BRILLIANTOV_BINARY_EXPONENT]),
+                         limit);
+}
+
 /// y of y^c + g y = b.
 SCREE_INLINE lanes mobilised_friction(lanes b, lanes g, const law_settings *settings)
 {
-    const double c = settings->number[BRILLIANTOV_EXPONENT], tiny = 1e-300; // against 0 / 0 where nothing slips
-    lanes y = lanes_at_most(power_of(b, settings->number[BRILLIANTOV_BINARY_EXPONENT]), b / (g + tiny));
-    for (int k = 0; k < 2; k++) {
-        lanes power = power_of(y, c * M_LOG2E);
-        lanes excess = power + g * y - b, slope = c * power + g * y, bend = (c * (c - 1.0)) * power;
-        y = y - y * (2.0 * (excess * slope) / (2.0 * (slope * slope) - excess * bend + tiny));
-    }
+    lanes y = first_root(b, b / (g + 1e-300), settings);
+    for (int k = 0; k < 2; k++) y = nearer_root(y, b, g, settings);
     return y;
+}
+
+/// b^(1/c).
+SCREE_INLINE lanes regularised_slip(lanes b, const law_settings *settings)
+{
+    const lanes y = first_root(b, b * 1e300, settings);
+    return settings->number[BRILLIANTOV_WHOLE] > 0 ? nearer_root(y, b, lanes_all(0), settings) : y;
 }
 
 /// Tangential force on first. cap: mu f_n; before: the force at n - 1, carried along.
@@ -119,7 +144,7 @@ SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_setting
     lanes speed = v.dimension == 2 ? lanes_abs(slip.x) : lanes_root(vector_dot(3, slip, slip)),
           relative = speed * scale;
     lanes mobilised = implicit ? mobilised_friction(relative, mobility * cap * scale, settings)
-                               : power_of(relative, settings->number[BRILLIANTOV_BINARY_EXPONENT]);
+                               : regularised_slip(relative, settings);
     return against_slip(v.dimension, cap * mobilised, slip, speed);
 }
 
