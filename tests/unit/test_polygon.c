@@ -131,8 +131,8 @@ static void test_bad_input(void **state)
     refused(2, square, "3 to 32", "2");
     static const double thousand[1000][2];
     refused(1000, thousand, "3 to 32", "1000");
-    refused(4, (const double[4][2]){{0, 0}, {1, 0}, {1, NAN}, {0, 1}}, "corner 2", "not a place");
-    refused(4, (const double[4][2]){{0, 0}, {1, 0}, {1, 1}, {-INFINITY, 1}}, "corner 3", "not a place");
+    refused(4, (const double[4][2]){{0, 0}, {1, 0}, {1, NAN}, {0, 1}}, "corner 2", "not a position");
+    refused(4, (const double[4][2]){{0, 0}, {1, 0}, {1, 1}, {-INFINITY, 1}}, "corner 3", "not a position");
     refused(4, (const double[4][2]){{0, 0}, {0, 1}, {1, 1}, {1, 0}}, "clockwise", "opposite order");
     refused(5, (const double[5][2]){{0, 0}, {1, 0}, {0.4, 0.5}, {1, 1}, {0, 1}}, "not convex", "corner 2");
     refused(5, (const double[5][2]){{0, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}}, "on the line", "corner 3");
