@@ -11,7 +11,7 @@ NAVIGATION = {
     "First steps": ["docs/getting-started", "docs/tutorials/README", "docs/gallery", "docs/glossary"],
     "Reference": ["docs/case-reference", "docs/output", "docs/sweeps", "docs/clusters", "docs/python", "docs/library"],
     "Theory": ["docs/theory", "docs/friction-update", "docs/rotation-length"],
-    "What it reaches": ["docs/reproduction", "docs/full-runs", "docs/performance"],
+    "What it reaches": ["docs/reproduction", "docs/preparation", "docs/full-runs", "docs/performance"],
     "The project": ["docs/architecture", "CONTRIBUTING", "CHANGELOG"],
 }
 # Pages with pages below them: those of a folder, in the order in which the page links to them.
