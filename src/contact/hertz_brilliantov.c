@@ -15,6 +15,7 @@
 #include "state/memory_fields.h"
 
 #include <float.h>
+#include <stdio.h>
 
 /// The slip that an implicit friction sees holds what one step may change: so many times the largest now.
 static const double FORESEEN = 64;
@@ -40,27 +41,52 @@ static const scree_key keys[] = {
              "or the force ends at zero."),
 };
 
-static bool is_implicit(const contact *c)
+/// What a stage says of the update itself.
+typedef struct stage_config {
+    int friction_update; ///< scree_friction_update; auto: that of the case
+} stage_config;
+
+static const scree_choice stage_updates[] = {
+    {"auto", SCREE_CHOICE_AUTO, "`contact.friction_update`"},
+    {"explicit", SCREE_FRICTION_EXPLICIT, "as `contact.friction_update: explicit`"},
+    {"implicit", SCREE_FRICTION_IMPLICIT, "as `contact.friction_update: implicit`"},
+    {0},
+};
+
+static const scree_key stage_keys[] = {
+    CHOICE(stage_config, friction_update, stage_updates, .standard = "auto", .when = "contact.law=hertz_brilliantov",
+           .meaning = "How the stiff friction law is integrated during this stage."),
+};
+
+static int update_of(const contact *c, const scree_config_stage *stage)
 {
-    return c->friction_update == SCREE_FRICTION_IMPLICIT;
+    char section[64];
+    (void)snprintf(section, sizeof section, "stages.%s", scree_modules[stage->kind]->name);
+    const stage_config *own = scree_config_own(&scree_module_hertz_brilliantov, section, stage->own);
+    return own && own->friction_update != SCREE_CHOICE_AUTO ? own->friction_update : c->friction_update;
 }
 
-/// Of one of the laws of the case.
-static bool has_implicit(const scree_config_contact *section)
+/// Whether one of the laws of the case has the implicit update in a stage, of those that load the sample alone.
+static bool has_implicit(const scree_config *config, bool loading)
 {
-    for (int k = 0; k <= section->pair_count; k++) {
-        if (scree_config_law(section, k) != SCREE_SLOT_hertz_brilliantov) continue;
-        const contact *c = scree_config_law_keys(section, k);
-        if (c && is_implicit(c)) return true;
+    for (int k = 0; k <= config->contact.pair_count; k++) {
+        if (scree_config_law(&config->contact, k) != SCREE_SLOT_hertz_brilliantov) continue;
+        const contact *c = scree_config_law_keys(&config->contact, k);
+        for (int64_t i = 0; c && i < config->stage_count; i++) {
+            const scree_config_stage *stage = &config->stages[i];
+            if (stage->kind < 0 || (loading && !scree_modules[stage->kind]->numbers->rate)) continue;
+            if (update_of(c, stage) == SCREE_FRICTION_IMPLICIT) return true;
+        }
     }
     return false;
 }
 
-/// The implicit update reckons with a kick of the size of the last step, and cannot stand steps of two sizes.
+/// The implicit update reckons with a kick of the size of the last step, and cannot stand steps of two sizes, which
+/// stages that load have.
 static void rules(scree_reader *reader, const scree_config *config)
 {
     const scree_config_integrator *integrator = &config->integrator;
-    if (!has_implicit(&config->contact) || integrator->scheme < 0) return;
+    if (integrator->scheme < 0 || !has_implicit(config, false)) return;
     const char *const path = "integrator.scheme", *const others = scree_rule_choices(reader, path, ", ",
                                                                                      scree_scheme_has_equal_steps);
     if (scree_integrator_get(integrator->scheme)->velocity)
@@ -68,7 +94,7 @@ static void rules(scree_reader *reader, const scree_config *config)
                           "an implicit contact.friction_update reckons with the kick of a leapfrog: choose another "
                           "scheme, or friction_update: explicit");
     scree_steps (*lengths)(const void *own) = scree_integrator_get(integrator->scheme)->steps;
-    if (lengths && lengths(integrator->own).small > 0)
+    if (has_implicit(config, true) && lengths && lengths(integrator->own).small > 0)
         scree_rule_refuse(reader, path, others,
                           "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
                           "choose another scheme, or small_steps: 0");
@@ -77,7 +103,14 @@ static void rules(scree_reader *reader, const scree_config *config)
 static unsigned options(const void *own, const scree_config_material *material)
 {
     (void)material;
-    return is_implicit(own) ? BRILLIANTOV_IMPLICIT : 0;
+    const contact *c = own;
+    return c->friction_update == SCREE_FRICTION_IMPLICIT ? BRILLIANTOV_IMPLICIT : 0;
+}
+
+static unsigned stage_options(const void *own, const scree_config_stage *stage, unsigned option)
+{
+    const bool implicit = update_of(own, stage) == SCREE_FRICTION_IMPLICIT;
+    return (option & ~(unsigned)BRILLIANTOV_IMPLICIT) | (implicit ? BRILLIANTOV_IMPLICIT : 0);
 }
 
 static void resolve(const void *own, double reference_velocity, scree_law_use *use)
@@ -139,6 +172,7 @@ static const scree_law law = {
     .resistances = 1U << SCREE_FRICTION,
     .needs_slip_scale = true,
     .options = options,
+    .stage_options = stage_options,
     .resolve = resolve,
     .constants = constants,
     .bound = bound,
@@ -154,8 +188,11 @@ const scree_module scree_module_hertz_brilliantov = {
         "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
         "history",
     .choice_of = CHOICE_OF(IS("contact.law"), IS("contact.pairs.law")),
-    .keys = (const scree_keys[]){KEYS_OF("contact", keys, contact), KEYS_OF("contact.pairs", keys, contact)},
-    .keys_count = 2,
+    .keys = (const scree_keys[]){KEYS_OF("contact", keys, contact), KEYS_OF("contact.pairs", keys, contact),
+                                 KEYS_OF("stages.confine", stage_keys, stage_config, .after = "friction"),
+                                 KEYS_OF("stages.compress", stage_keys, stage_config, .after = "friction"),
+                                 KEYS_OF("stages.deform", stage_keys, stage_config, .after = "friction")},
+    .keys_count = 5,
     .rules = rules,
     .law = &law,
     .fields = fields,

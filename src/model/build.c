@@ -399,9 +399,13 @@ static scree_status resolve_geometry(scree_model *model, scree_error *error)
 static scree_status check_gains(const scree_model *model, scree_error *error)
 {
     if (!(model->largest_gain > 1)) return SCREE_OK;
-    for (int64_t i = 0; i < model->config->stage_count; i++)
+    for (int64_t i = 0; i < model->config->stage_count; i++) {
+        const scree_model of_stage = scree_model_of_stage(model, &model->config->stages[i]);
         if (scree_modules[model->config->stages[i].kind]->numbers->bonds)
             return FIELD_ERROR(error, "stages", "bonds hold discs and spheres together: rounded polygons have none");
+        if (scree_model_predicts(&of_stage))
+            return FIELD_ERROR(error, "contact.friction_update", "rounded polygons know the explicit update only");
+    }
     for (int k = 0; k < scree_model_law_count(model); k++) {
         const scree_law_traits *traits = scree_law_use_traits(&model->laws[k]);
         if (traits->deforms)
@@ -409,9 +413,6 @@ static scree_status check_gains(const scree_model *model, scree_error *error)
         const char *name = scree_modules[model->laws[k].law]->name;
         if (traits->pulls || traits->necks)
             return FIELD_ERROR(error, "contact.law", "law %s sticks: rounded polygons need one that only pushes", name);
-        if (traits->looks_ahead)
-            return FIELD_ERROR(error, "contact.friction_update",
-                               "the implicit friction of law %s is that of discs: set it to explicit", name);
     }
     return SCREE_OK;
 }

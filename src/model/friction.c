@@ -1,8 +1,8 @@
 /// Friction, and how a stage changes it. There is one way: the model of a stage is a copy of the model of the case in
 /// which the coefficient of friction of every pair of materials is that of the stage, on plates and walls of the case
-/// too (also where a wall has a friction of its own). Kernels, bounds and measures are given that model and know
-/// nothing of stages. What resists rolling stays. Materials that are frictionless, whatever the stage says, have no bit
-/// of any resistance.
+/// too (also where a wall has a friction of its own), and laws have the option of the stage. Kernels, bounds and
+/// measures are given that model and know nothing of stages. What resists rolling stays. Materials that are
+/// frictionless, whatever the stage says, have no bit of any resistance.
 #include "model/model.h"
 
 static bool is_frictionless(const scree_model *model, int material)
@@ -42,6 +42,18 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
             copy.pairs[i][j].value[SCREE_FRICTION] = friction;
             copy.persistent.pairs[i][j].value[SCREE_FRICTION] = friction;
         }
+    }
+    return copy;
+}
+
+scree_model scree_model_of_stage(const scree_model *model, const scree_config_stage *stage)
+{
+    scree_model copy = scree_model_with_friction(model, stage->friction);
+    const scree_config_contact *contact = &model->config->contact;
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        scree_law_use *use = &copy.laws[k];
+        const scree_law *law = scree_law_get(use->law);
+        if (law->stage_options) use->option = law->stage_options(scree_config_law_keys(contact, k), stage, use->option);
     }
     return copy;
 }

@@ -103,6 +103,8 @@ typedef struct scree_law {
     /// Options that the case, or one of the materials in use, asks for. own: the struct of the law's keys under
     /// `contact`, or in an element of contact.pairs.
     unsigned (*options)(const void *own, const scree_config_material *material);
+    /// The option during a stage; option: that of the case. NULL: stages do not choose.
+    unsigned (*stage_options)(const void *own, const scree_config_stage *stage, unsigned option);
     /// Numbers of the whole run. reference_velocity [m/s]: v_R. NULL: none.
     void (*resolve)(const void *own, double reference_velocity, scree_law_use *use);
     /// Constants of two materials; b is NULL for something rigid.

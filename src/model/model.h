@@ -273,4 +273,7 @@ const void *scree_model_numbers(const scree_model *model, int slot);
 /// The model of a stage with this friction; NAN: its own (friction.c).
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 
+/// The model of a stage: its friction, and how its laws integrate it.
+scree_model scree_model_of_stage(const scree_model *model, const scree_config_stage *stage);
+
 #endif

@@ -118,7 +118,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     double before[3];
     memcpy(before, s->stage_model.gravity, sizeof before);
     // What contacts exert between two stages is that of the stage before.
-    if (!s->stage->instant) s->stage_model = scree_model_with_friction(&s->model, config->friction);
+    if (!s->stage->instant) s->stage_model = scree_model_of_stage(&s->model, config);
     memcpy(s->stage_model.gravity, before, sizeof before);
     if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);

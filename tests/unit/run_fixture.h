@@ -27,6 +27,22 @@ static inline scree_status case_parse(const char *text, const char *const *overr
     return scree_case_parse(text, strlen(text), "small.yaml", &options, c, problems);
 }
 
+/// A case that is not valid: one of its problems says message.
+static inline void case_refused(const char *text, const char *const *overrides, size_t count, const char *message)
+{
+    scree_case *c;
+    scree_problems *problems;
+    char line[2048] = "nothing was refused";
+    if (case_parse(text, overrides, count, &c, &problems) == SCREE_OK) fail_msg("not refused: %s", message);
+    bool found = false;
+    for (size_t k = 0; k < scree_problems_count(problems) && !found; k++) {
+        scree_error_format(scree_problems_get(problems, k), line, sizeof line);
+        found = strstr(line, message) != NULL;
+    }
+    if (!found) fail_msg("'%s' is not in: %s", message, line);
+    scree_problems_free(problems);
+}
+
 /// A case that must be valid; free it. What is wrong with it is printed.
 static inline scree_case *case_read(const char *text, const char *const *overrides, size_t count)
 {

@@ -651,21 +651,6 @@ static void a_restart_at_any_step_goes_on(void **unused)
 
 // ---- what it refuses -----------------------------------------------------------------------------------------------
 
-static void refused(const char *text, const char *const *overrides, size_t count, const char *message)
-{
-    scree_case *c;
-    scree_problems *problems;
-    char line[2048] = "nothing was refused";
-    if (case_parse(text, overrides, count, &c, &problems) == SCREE_OK) fail_msg("not refused: %s", message);
-    bool found = false;
-    for (size_t k = 0; k < scree_problems_count(problems) && !found; k++) {
-        scree_error_format(scree_problems_get(problems, k), line, sizeof line);
-        found = strstr(line, message) != NULL;
-    }
-    if (!found) fail_msg("'%s' is not in: %s", message, line);
-    scree_problems_free(problems);
-}
-
 static const char turned[] =
     "materials: [{name: stone, young_modulus: 1e7 Pa, poisson_ratio: 0.3, density: 2500 kg/m3, friction: 0.5}]\n"
     "particles: {material: stone, count: 60, distribution: uniform, radius_min: 0.8 mm, radius_max: 1 mm}\n"
@@ -683,15 +668,15 @@ static void what_it_cannot_do_is_refused(void **unused)
                                     GEAR};
     const char *const deform[] = {GEAR, "stages.1.boundary=membrane"};
     const char *const affine[] = {GEAR, "stages.2.boundary=affine"};
-    refused(SIMULATION_SMALL, implicit, 2, "friction_update");
-    refused(SIMULATION_SMALL, deform, 2, "gear does not");
-    refused(SIMULATION_SMALL, affine, 2, "gear does not");
+    case_refused(SIMULATION_SMALL, implicit, 2, "friction_update");
+    case_refused(SIMULATION_SMALL, deform, 2, "gear does not");
+    case_refused(SIMULATION_SMALL, affine, 2, "gear does not");
     const char *const held[] = {GEAR, "selections=[{select: all, name: some}]",
                                 "loads=[{load: prescribed, selection: some, velocity_x: 0}]"};
-    refused(LIBRARY_PAIR, held, 3, "prescribes motions");
-    refused(turned, NULL, 0, "prescribes a spin");
+    case_refused(LIBRARY_PAIR, held, 3, "prescribes motions");
+    case_refused(turned, NULL, 0, "prescribes a spin");
     const char *const cell[] = {GEAR, "boundary.periodic=x"};
-    refused(SIMULATION_SMALL, cell, 2, "periodic");
+    case_refused(SIMULATION_SMALL, cell, 2, "periodic");
 }
 
 int main(void)

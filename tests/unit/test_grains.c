@@ -273,22 +273,6 @@ static void snapshots_of_runs(void **unused)
     assert_int_equal(scree_grains_read(write_file("text", "x,y\n1,2\n"), &first, &g, &error), SCREE_ERROR_IO);
 }
 
-/// That one of the problems of a case says `message`.
-static void expect_case_refused(const char *text, const char *const *overrides, size_t count, const char *message)
-{
-    scree_case *c;
-    scree_problems *problems;
-    char line[2048] = "";
-    assert_int_not_equal(case_parse(text, overrides, count, &c, &problems), SCREE_OK);
-    bool found = false;
-    for (size_t k = 0; k < scree_problems_count(problems); k++) {
-        scree_error_format(scree_problems_get(problems, k), line, sizeof line);
-        found = found || strstr(line, message);
-    }
-    if (!found) fail_msg("'%s' is not said; the last problem is: %s", message, line);
-    scree_problems_free(problems);
-}
-
 /// The message for a table of grains in a case; overrides behind it.
 static void expect_refused(const char *table, const char *const *overrides, size_t count, const char *message)
 {
@@ -298,7 +282,7 @@ static void expect_refused(const char *table, const char *const *overrides, size
                    HEAD SIZES OUT "stages:\n- {stage: prepare, method: file, file: %s, width: 8 mm, height: 4 mm}\n"
                                   "- {stage: relax, duration: 1 us, boundary: plates}\n",
                    path);
-    expect_case_refused(text, overrides, count, message);
+    case_refused(text, overrides, count, message);
 }
 
 static void cases_are_checked(void **unused)
@@ -348,10 +332,10 @@ static void a_case_leaves_out_what_the_file_says(void **unused)
     }
     const char *const missing[] = {"stages.0.file=/nowhere.csv"};
     (void)snprintf(text, sizeof text, "%s" OUT "stages: [{stage: prepare, method: file, file: %s}]\n", begin, path);
-    expect_case_refused(text, missing, 1, "particles.count: required");
+    case_refused(text, missing, 1, "particles.count: required");
     // Two materials: which one is not known.
     (void)snprintf(text, sizeof text, HEAD OUT "stages: [{stage: prepare, method: file, file: %s}]\n", path);
-    expect_case_refused(text, NULL, 0, "particles.material: required");
+    case_refused(text, NULL, 0, "particles.material: required");
 }
 
 /// A list may stand in a table, too: its columns are the keys of each element.
@@ -381,7 +365,7 @@ static void gradings_stand_in_files(void **unused)
     scree_case_free(c);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         (void)snprintf(text, sizeof text, form, write_file("grading.csv", wrong[k].table));
-        expect_case_refused(text, NULL, 0, wrong[k].message);
+        case_refused(text, NULL, 0, wrong[k].message);
     }
 }
 

@@ -181,12 +181,59 @@ static void implicit_friction_does_not_chatter(void **unused)
     }
 }
 
+/// A stage chooses for itself: confined implicitly, samples are those that a wholly implicit case confines, whatever
+/// sequence loads them then; and they go on with the bits of a restart in either stage.
+static void a_stage_chooses_its_friction_update(void **unused)
+{
+    (void)unused;
+    static const char *const whole[] = {SEQUENCE(1, 50, 0), "contact.friction_update=implicit"};
+    static const char *const confined[] = {SEQUENCE(2, 20, 5), "stages.confine.friction_update=implicit"};
+    static const char *const explicit_alone[] = {SEQUENCE(2, 20, 5)};
+    char folder[64];
+    run a, b, c, part;
+    assert_true(scratch_create(folder));
+    start(&a, 1, whole, 4);
+    start(&b, 1, confined, 4);
+    start(&c, 1, explicit_alone, 3);
+    for (size_t id = 0; id < a.s.state.count; id++) {
+        const scree_row *here = &a.s.state.row[a.s.state.row_of_id[id]], *there = &b.s.state.row[b.s.state.row_of_id[id]];
+        assert_memory_equal(here, there, sizeof *here);
+    }
+    assert_true(simulation_bits(&b.s) != simulation_bits(&c.s));
+    assert_true(scree_model_predicts(&a.s.stage_model) && !scree_model_predicts(&b.s.stage_model));
+    advance(&b, 300);
+    simulation_reopen(&b.s, 2, folder, &part.s);
+    advance(&part, 300);
+    advance(&b, 300);
+    assert_true(simulation_bits(&part.s) == simulation_bits(&b.s));
+    scree_simulation_close(&part.s);
+    finish(&a);
+    finish(&b);
+    finish(&c);
+    scratch_destroy(folder);
+}
+
+/// What a stage may not choose: steps of two sizes while loading, and a law that has no such update.
+static void a_stage_is_refused_what_its_law_or_steps_do_not_carry(void **unused)
+{
+    (void)unused;
+    static const char *const sequence[] = {SEQUENCE(2, 20, 5), "stages.compress.friction_update=implicit"};
+    static const char *const other_law[] = {"contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet",
+                                            "stages.confine.friction_update=implicit"};
+    static const char *const one_size[] = {SEQUENCE(1, 50, 0), "stages.compress.friction_update=implicit"};
+    case_refused(case_text, sequence, 4, "needs equal steps");
+    case_refused(case_text, other_law, 3, "friction_update");
+    scree_case_free(case_read(case_text, one_size, 4));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_evaluations_are_those_of_table_2_1), cmocka_unit_test(the_limits_are_position_verlet),
         cmocka_unit_test(a_sequence_goes_on_after_a_restart),       cmocka_unit_test(the_energy_balance_closes),
         cmocka_unit_test(implicit_friction_does_not_chatter),
+        cmocka_unit_test(a_stage_chooses_its_friction_update),
+        cmocka_unit_test(a_stage_is_refused_what_its_law_or_steps_do_not_carry),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
