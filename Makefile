@@ -29,7 +29,9 @@ reproduce: all programs ## the published experiments in their quick forms, compa
 	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
 
 reproduce-full: all programs ## the same with the sources' own numbers: many hours; interrupt it and call it again
-	@$(BUILD)/scree reproduce --full -o out-reproduce/full; status=$$?; \
+	@bash cmake/records.sh restore out-reproduce/full records; \
+	$(BUILD)/scree reproduce --full -o out-reproduce/full; status=$$?; \
+	    bash cmake/records.sh keep out-reproduce/full records; \
 	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
 
 reference: all ## store the state checksums anew: after a change that means to alter bits, and says so in CHANGELOG.md
