@@ -5,6 +5,7 @@
 /// usual file, and 10 ms once a process for the unit database.
 #include "case/case.h"
 
+#include "base/handle.h"
 #include "base/memory.h"
 #include "case/document.h"
 #include "case/former.h"
@@ -87,6 +88,7 @@ static scree_status parse(const input *in, scree_problems *problems, scree_case 
     }
     *source = (struct scree_case_source){arena, reader.root};
     c->source = source;
+    scree_handle_made(c);
     *out = c;
     return SCREE_OK;
 }
@@ -134,6 +136,7 @@ scree_status scree_case_reread(const char *path, const scree_former_key *former,
 void scree_case_free(scree_case *c)
 {
     if (!c) return;
+    scree_handle_freed(c, "a case");
     scree_arena arena = c->source->arena;
     scree_arena_release(&arena);
 }

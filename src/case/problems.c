@@ -1,6 +1,7 @@
 /// The list of problems. The last slot is kept for "and n more" and for "out of memory".
 #include "case/problems.h"
 
+#include "base/handle.h"
 #include "base/memory.h"
 
 #include <stdio.h>
@@ -16,7 +17,9 @@ struct scree_problems {
 
 size_t scree_problems_count(const scree_problems *problems)
 {
-    return problems ? problems->count : 0;
+    if (!problems) return 0;
+    scree_handle_check(problems, "a list of problems");
+    return problems->count;
 }
 
 const scree_error *scree_problems_get(const scree_problems *problems, size_t index)
@@ -27,6 +30,7 @@ const scree_error *scree_problems_get(const scree_problems *problems, size_t ind
 void scree_problems_free(scree_problems *problems)
 {
     if (!problems) return;
+    scree_handle_freed(problems, "a list of problems");
     scree_release(&problems->items);
     scree_release(&problems);
 }
@@ -43,6 +47,7 @@ scree_status scree_problems_create(scree_problems **out)
         return status;
     }
     problems->capacity = FIRST_CAPACITY;
+    scree_handle_made(problems);
     *out = problems;
     return SCREE_OK;
 }

@@ -1,6 +1,7 @@
 /// The resolved case as YAML: every key that is used, the user's text where there is one, else the default, and the
 /// schema's line as comment. Reading it gives the same config, bit for bit, because each number is the same text. The
 /// quick section is left out: it has been applied or not, and its paths need not fit what --set made of the case.
+#include "base/handle.h"
 #include "case/check.h"
 
 #include <ctype.h>
@@ -191,6 +192,7 @@ static scree_status write_case(const scree_case *c, bool bare, FILE *file, scree
 
 scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *error)
 {
+    scree_handle_check(c, "a case");
     return write_case(c, false, file, error);
 }
 

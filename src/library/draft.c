@@ -1,4 +1,5 @@
 /// Drafts: a text of a case and the keys that overrule it, kept until they are checked together.
+#include "base/handle.h"
 #include "base/memory.h"
 #include "case/case.h"
 
@@ -17,6 +18,7 @@ struct scree_draft {
 void scree_draft_free(scree_draft *draft)
 {
     if (!draft) return;
+    scree_handle_freed(draft, "a draft");
     for (size_t k = 0; k < draft->count; k++) free(draft->override[k]);
     scree_release(&draft->override);
     scree_release(&draft->text);
@@ -30,6 +32,7 @@ scree_status scree_draft_parse(const char *text, size_t length, const char *name
     *out = NULL;
     scree_status status = scree_allocate(&draft, 1, sizeof *draft, error);
     if (status) return status;
+    scree_handle_made(draft);
     status = scree_allocate(&draft->text, length + 1, 1, error);
     draft->name = strdup(name);
     if (!status && !draft->name) status = scree_error_set_memory(error, strlen(name) + 1);
@@ -78,6 +81,7 @@ scree_status scree_draft_read(const char *path, scree_draft **out, scree_error *
 
 scree_status scree_draft_set(scree_draft *draft, const char *key, const char *value, scree_error *error)
 {
+    scree_handle_check(draft, "a draft");
     if (draft->count == draft->capacity) {
         size_t capacity = 2 * draft->capacity + 8;
         scree_status status =
@@ -105,11 +109,13 @@ scree_status scree_draft_set_number(scree_draft *draft, const char *key, double 
 
 void scree_draft_set_quick(scree_draft *draft, bool quick)
 {
+    scree_handle_check(draft, "a draft");
     draft->quick = quick;
 }
 
 scree_status scree_draft_check(const scree_draft *draft, scree_case **out, scree_problems **problems)
 {
+    scree_handle_check(draft, "a draft");
     const scree_case_options options = {
         .overrides = (const char *const *)draft->override, .override_count = draft->count, .quick = draft->quick};
     return scree_case_parse(draft->text, draft->length, draft->name, &options, out, problems);

@@ -2,16 +2,12 @@
 #ifndef SCREE_LIBRARY_HANDLE_H
 #define SCREE_LIBRARY_HANDLE_H
 
+#include "base/handle.h"
 #include "run/simulation.h"
 
-#include <assert.h>
-
-/// The handle is that of a simulation which is open.
-static inline void handle_assert(const scree_simulation *s)
-{
-    assert(s && s->magic == SCREE_SIMULATION_MAGIC && "not a simulation, or one that was freed");
-    (void)s;
-}
+/// The handle is that of a simulation, and neither it nor its case was freed (builds with assertions).
+#define handle_assert(simulation)                                                                                      \
+    (scree_handle_check((simulation), "a simulation"), scree_handle_check((simulation)->c, "a simulation of a case"))
 
 /// What may not be done from an own force. Errors: SCREE_ERROR_INPUT.
 static inline scree_status handle_refuse_inside(const scree_simulation *s, scree_error *error)

@@ -9,20 +9,23 @@
 
 scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error)
 {
+    scree_handle_check(c, "a case");
     scree_status status = scree_allocate(out, 1, sizeof **out, error);
     if (status) return status;
     status = scree_simulation_open(c, threads, *out, error);
     if (status) {
         scree_simulation_close(*out);
         scree_release(out);
+        return status;
     }
-    return status;
+    scree_handle_made(*out);
+    return SCREE_OK;
 }
 
 void scree_simulation_free(scree_simulation *s)
 {
     if (!s) return;
-    handle_assert(s);
+    scree_handle_freed(s, "a simulation");
     scree_simulation_close(s);
     scree_release(&s);
 }

@@ -1,6 +1,7 @@
 /// What a theory has found: values and curves, on disk and as a figure.
 #include "library/theory.h"
 
+#include "base/handle.h"
 #include "io/run_directory.h"
 #include "view/chart.h"
 
@@ -11,7 +12,9 @@
 
 scree_status theory_create(scree_theory **theory, scree_error *error)
 {
-    return scree_allocate(theory, 1, sizeof **theory, error);
+    scree_status status = scree_allocate(theory, 1, sizeof **theory, error);
+    if (!status) scree_handle_made(*theory);
+    return status;
 }
 
 scree_status theory_begin_figure(scree_theory *t, const char *name, size_t points, size_t curves,
@@ -48,6 +51,7 @@ void theory_add(scree_theory *t, const char *name, double value, const char *uni
 
 size_t scree_theory_values(const scree_theory *t, const scree_theory_value **values)
 {
+    scree_handle_check(t, "a theory");
     *values = t->value;
     return t->value_count;
 }
@@ -55,6 +59,7 @@ size_t scree_theory_values(const scree_theory *t, const scree_theory_value **val
 void scree_theory_free(scree_theory *t)
 {
     if (!t) return;
+    scree_handle_freed(t, "a theory");
     for (size_t i = 0; i < t->figure_count; i++) {
         theory_figure *f = &t->figure[i];
         for (size_t k = 0; k < f->curve_count; k++) scree_release(&f->curve[k].y);
@@ -128,6 +133,7 @@ static scree_status draw(const char *folder, const theory_figure *f, scree_error
 
 scree_status scree_theory_write(const scree_theory *t, const char *folder, scree_error *error)
 {
+    scree_handle_check(t, "a theory");
     char name[NAME_MAX];
     scree_status status = scree_folders_make(folder, error);
     if (!status) status = write_table(folder, "values.csv", write_values, t, error);

@@ -1,4 +1,5 @@
 /// The driver behind `scree run`: a case into a run directory, from the begin or from a checkpoint.
+#include "base/handle.h"
 #include "case/case.h"
 #include "comm/comm.h"
 #include "io/disk.h"
@@ -264,6 +265,7 @@ static scree_status open_case(const scree_case *c, const scree_run_options *opti
 
 scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error)
 {
+    scree_handle_check(c, "a case");
     uint64_t checksum = 0;
     scree_simulation s;
     scree_folder_lock lock = {0};

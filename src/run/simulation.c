@@ -24,7 +24,6 @@
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
 {
     memset(s, 0, sizeof *s);
-    s->magic = SCREE_SIMULATION_MAGIC;
     s->c = c;
     scree_status status = scree_model_build(&c->config, &s->model, error);
     if (status) {
@@ -48,7 +47,6 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
 
 void scree_simulation_close(scree_simulation *s)
 {
-    s->magic = 0;
     scree_columns_destroy(&s->columns);
     scree_release(&s->sample);
     scree_own_force_list_destroy(&s->forces);

@@ -17,9 +17,6 @@ enum { SCREE_PASSES = 64 }; ///< most passes of a step
 /// looks at it or stores it, until the next step.
 enum { SCREE_STAGE_NOT_BEGUN = -1, SCREE_STAGE_ENDED = -2 };
 
-/// What `magic` is in a simulation that is open.
-#define SCREE_SIMULATION_MAGIC UINT64_C(0x7363726565736d31)
-
 /// The forces of the program that uses the library (run/own_force.h). No part of the state: a program registers its
 /// functions anew.
 typedef struct scree_own_force_list {
@@ -29,7 +26,6 @@ typedef struct scree_own_force_list {
 } scree_own_force_list;
 
 struct scree_simulation {
-    uint64_t magic;
     const scree_case *c;
     scree_model model;       ///< of the case
     scree_model stage_model; ///< with the friction of the present stage; what the kernels see

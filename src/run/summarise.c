@@ -1,4 +1,5 @@
 /// What a case amounts to before it is run: numbers of the model, and what a run of it will take.
+#include "base/handle.h"
 #include "case/case.h"
 #include "run/estimate.h"
 #include "run/quasistatic.h"
@@ -55,6 +56,7 @@ static scree_status estimate(const scree_case *c, const scree_model *model, scre
 
 scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error)
 {
+    scree_handle_check(c, "a case");
     scree_model model;
     scree_status status = scree_model_build(&c->config, &model, error);
     if (status) {
@@ -100,6 +102,7 @@ static void forward(void *user, scree_log_level level, const char *line)
 scree_status scree_case_warn(const scree_case *c, void (*visit)(void *user, const char *line), void *user,
                              scree_error *error)
 {
+    scree_handle_check(c, "a case");
     scree_model model;
     scree_status status = scree_model_build(&c->config, &model, error);
     listener to = {visit, user};

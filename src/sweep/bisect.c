@@ -12,6 +12,7 @@
 /// Cost: 2 + log2(distance of the ends over tolerance) runs, one after the other.
 #include "sweep/bisect.h"
 
+#include "base/handle.h"
 #include "base/units.h"
 #include "case/case.h"
 #include "case/path.h"
@@ -411,6 +412,7 @@ static scree_status open_folder(const search *s, scree_folder_lock *lock, scree_
 scree_status scree_bisect(const scree_case *c, const scree_bisection *what, const scree_sweep_options *options,
                           scree_bisection_result *result, scree_error *error)
 {
+    scree_handle_check(c, "a case");
     double ends[2];
     search s = {.c = c, .what = what, .options = options};
     scree_folder_lock lock = {0};

@@ -1,6 +1,7 @@
 /// Running the members of a sweep: as many processes at the same time as asked for, started in the order of their
 /// numbers. A member is a run of a case file that holds everything, so its result depends neither on the order nor on
 /// the others. One that crashes, runs out of memory or is stopped by a guard takes nothing else with it.
+#include "base/handle.h"
 #include "sweep/process.h"
 #include "sweep/results.h"
 #include "sweep/share.h"
@@ -430,6 +431,7 @@ static void close_drive(drive *d)
 
 const char *scree_sweep_lacks(const scree_sweep *sweep)
 {
+    scree_handle_check(sweep, "a sweep");
     return sweep->config.needs[0] && !scree_program_is_there(sweep->config.needs) ? sweep->config.needs : NULL;
 }
 
@@ -446,6 +448,7 @@ static scree_status check_program(const scree_sweep *sweep, scree_error *error)
 
 scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
 {
+    scree_handle_check(sweep, "a sweep");
     drive d = {.sweep = sweep, .options = options, .error = error};
     scree_status status = check_program(sweep, error);
     if (!status) status = open_drive(&d, 0, sweep->member_count);
@@ -466,6 +469,7 @@ scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options
 scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member, const scree_sweep_options *options,
                                     scree_error *error)
 {
+    scree_handle_check(sweep, "a sweep");
     drive d = {.sweep = sweep, .options = options, .error = error};
     if (member >= sweep->member_count)
         return scree_error_set(error, SCREE_ERROR_INPUT, "there is no member %zu: the sweep has %zu, numbered from 0",

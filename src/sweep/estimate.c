@@ -1,6 +1,7 @@
 /// What a sweep will cost: the case of each point is set going for a moment (scree_case_summarise), and counts as often
 /// as it has realisations. Of searches (bisect.h) it is the cost of one run of each. What members share (share.h)
 /// counts in each of them. Cost: some tenths of a second a point.
+#include "base/handle.h"
 #include "sweep/sweep.h"
 
 #include <math.h>
@@ -8,6 +9,7 @@
 scree_status scree_sweep_estimate_cost(const scree_sweep *sweep, bool figures, scree_sweep_cost *cost,
                                        scree_error *error)
 {
+    scree_handle_check(sweep, "a sweep");
     const size_t members = scree_sweep_member_count(sweep), points = sweep->point_count;
     *cost = (scree_sweep_cost){.members = members, .searches = sweep->config.bisect.key[0] != 0};
     for (size_t point = 0; point < points; point++) {

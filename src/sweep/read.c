@@ -1,4 +1,5 @@
 /// Reading a sweep: its file, the case it is about, the grid, and the case of every point, with all problems at once.
+#include "base/handle.h"
 #include "case/case.h"
 #include "case/templates.h"
 #include "sweep/bisect.h"
@@ -304,6 +305,7 @@ static scree_status read_text(const input *in, scree_sweep **out, scree_problems
         return status;
     }
     sweep->arena = arena;
+    scree_handle_made(sweep);
     *out = sweep;
     return SCREE_OK;
 }
@@ -376,6 +378,7 @@ scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *
 void scree_sweep_free(scree_sweep *sweep)
 {
     if (!sweep) return;
+    scree_handle_freed(sweep, "a sweep");
     scree_arena arena = sweep->arena;
     scree_arena_release(&arena);
 }

@@ -1,6 +1,7 @@
 /// Reading what the members left behind, and collecting it into tables, curves and figures.
 #include "sweep/results.h"
 
+#include "base/handle.h"
 #include "base/memory.h"
 #include "io/run_directory.h"
 
@@ -189,6 +190,7 @@ static scree_status collect(const scree_sweep *sweep, const scree_sweep_options 
 
 scree_status scree_sweep_collect(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
 {
+    scree_handle_check(sweep, "a sweep");
     scree_error local;
     scree_folder_lock lock = {0};
     if (!error) error = &local;

@@ -1,6 +1,7 @@
 /// A SLURM job array for the members of a sweep, and what a member is as a command line.
 #include "sweep/sweep.h"
 
+#include "base/handle.h"
 #include "io/run_directory.h"
 
 #include <math.h>
@@ -10,11 +11,13 @@
 
 size_t scree_sweep_member_count(const scree_sweep *sweep)
 {
+    scree_handle_check(sweep, "a sweep");
     return sweep->member_count;
 }
 
 const char *scree_sweep_member_folder(const scree_sweep *sweep, size_t member)
 {
+    scree_handle_check(sweep, "a sweep");
     return member < sweep->member_count ? sweep->folder[member] : NULL;
 }
 
@@ -57,6 +60,7 @@ static void put_search(FILE *file, const scree_bisection *what)
 
 void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *text, size_t size)
 {
+    scree_handle_check(sweep, "a sweep");
     size_t point = scree_member_point(sweep, member);
     if (size == 0) return;
     text[0] = 0;
@@ -100,6 +104,7 @@ static void put_command(FILE *file, const scree_sweep *sweep, const scree_sweep_
 scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep_read_options *read,
                                      const scree_sweep_options *options, const char *path, scree_error *error)
 {
+    scree_handle_check(sweep, "a sweep");
     FILE *file;
     scree_status status = scree_replace_begin(path, &file, error);
     if (status) return status;

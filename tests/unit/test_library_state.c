@@ -4,8 +4,11 @@
 #include "io_scratch.h"
 
 #include <pthread.h>
+#include <scree/sweep.h>
+#include <scree/theory.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 static void set(scree_simulation *s, const scree_body_values *values)
 {
@@ -308,28 +311,118 @@ static void two_threads_use_two_simulations(void **unused)
     assert_true(alone[0].checksum != alone[1].checksum);
 }
 
-/// With assertions a handle that was closed ends the program; without them nothing is promised.
-static void a_closed_handle_is_caught(void **unused)
+#ifndef NDEBUG
+/// A program that uses something that it has freed ends there, and names the function and the handle.
+static void expect_end(void (*use)(void *handle), void *handle, const char *function, const char *message)
+{
+    int end[2], status = 0;
+    char said[1024] = "";
+    assert_int_equal(pipe(end), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        (void)dup2(end[1], STDERR_FILENO);
+        (void)signal(SIGABRT, SIG_DFL);
+        use(handle);
+        _exit(0);
+    }
+    (void)close(end[1]);
+    (void)!read(end[0], said, sizeof said - 1);
+    (void)close(end[0]);
+    assert_true(child > 0 && waitpid(child, &status, 0) == child);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
+    if (!strstr(said, function) || !strstr(said, message))
+        fail_msg("'%s' or '%s' is not in: %s", function, message, said);
+}
+
+static void use_simulation(void *handle)
+{
+    (void)scree_simulation_time(handle);
+}
+
+static void free_simulation(void *handle)
+{
+    scree_simulation_free(handle);
+}
+
+static void use_case(void *handle)
+{
+    (void)scree_case_write(handle, stdout, NULL);
+}
+
+static void simulate_case(void *handle)
+{
+    scree_simulation *s;
+    (void)!scree_simulation_create(handle, 1, &s, NULL);
+}
+
+static void use_draft(void *handle)
+{
+    scree_draft_set_quick(handle, true);
+}
+
+static void use_theory(void *handle)
+{
+    const scree_theory_value *values;
+    (void)scree_theory_values(handle, &values);
+}
+
+static void use_sweep(void *handle)
+{
+    (void)scree_sweep_member_count(handle);
+}
+
+static void use_problems(void *handle)
+{
+    (void)scree_problems_count(handle);
+}
+#endif
+
+/// With assertions the use of a handle that was freed ends the program, which says so; without them nothing is
+/// promised.
+static void a_freed_handle_is_caught(void **unused)
 {
     (void)unused;
 #ifdef NDEBUG
     skip();
 #else
-    scree_simulation s;
+    scree_error error = {0};
+    scree_simulation *s;
     scree_case *c = case_read(LIBRARY_PAIR, NULL, 0);
-    simulation_open(c, 1, &s);
-    scree_simulation_close(&s);
-    pid_t child = fork();
-    if (child == 0) {
-        (void)!freopen("/dev/null", "w", stderr);
-        (void)signal(SIGABRT, SIG_DFL);
-        (void)scree_simulation_time(&s);
-        _exit(0);
-    }
-    int status = 0;
-    assert_true(child > 0 && waitpid(child, &status, 0) == child);
-    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
+    check(scree_simulation_create(c, 1, &s, &error), &error);
     scree_case_free(c);
+    expect_end(use_simulation, s, "scree_simulation_time", "\"a simulation of a case\" ");
+    expect_end(use_case, c, "scree_case_write", "\"a case\" ");
+    expect_end(simulate_case, c, "scree_simulation_create", "\"a case\" ");
+    scree_simulation_free(s);
+    c = case_read(LIBRARY_PAIR, NULL, 0);
+    check(scree_simulation_create(c, 1, &s, &error), &error);
+    scree_simulation_free(s);
+    expect_end(use_simulation, s, "scree_simulation_time", "\"a simulation\" ");
+    expect_end(free_simulation, s, "scree_simulation_free", "\"a simulation\" ");
+    expect_end(use_simulation, NULL, "scree_simulation_time", "\"a simulation\" ");
+    scree_case_free(c);
+    // A new one where another lay is none that was freed.
+    for (int k = 0; k < 3; k++) {
+        scree_draft *draft;
+        check(scree_draft_builtin("biaxial", &draft, &error), &error);
+        scree_draft_set_quick(draft, true);
+        scree_draft_free(draft);
+        if (k == 2) expect_end(use_draft, draft, "scree_draft_set_quick", "\"a draft\" ");
+    }
+    scree_theory *theory;
+    const scree_theory_layer_of of = {.base = "smooth", .force = 1, .thickness = 1, .poisson_ratio = 0.3};
+    check(scree_theory_layer(&of, &theory, &error), &error);
+    scree_theory_free(theory);
+    expect_end(use_theory, theory, "scree_theory_values", "\"a theory\" ");
+    scree_sweep *sweep;
+    scree_problems *problems;
+    const scree_sweep_read_options options = {.realisations = 1};
+    assert_int_equal(scree_sweep_read("restitution", &options, &sweep, &problems), SCREE_OK);
+    scree_sweep_free(sweep);
+    expect_end(use_sweep, sweep, "scree_sweep_member_count", "\"a sweep\" ");
+    assert_int_not_equal(case_parse("scree: 1\n", NULL, 0, &c, &problems), SCREE_OK);
+    scree_problems_free(problems);
+    expect_end(use_problems, problems, "scree_problems_count", "\"a list of problems\" ");
 #endif
 }
 
@@ -344,7 +437,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_does_not_fit_is_not_restored, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(restoring_lifts_a_stop, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(two_threads_use_two_simulations, make_scratch, remove_scratch),
-        cmocka_unit_test(a_closed_handle_is_caught),
+        cmocka_unit_test(a_freed_handle_is_caught),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
