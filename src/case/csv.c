@@ -2,6 +2,7 @@
 #include "case/csv.h"
 
 #include "base/memory.h"
+#include "case/check.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@ typedef struct table {
     scree_node *list;              ///< of the rows
     const char *units[MOST_CELLS]; ///< of the columns; NULL: SI
     const char *names[MOST_CELLS]; ///< of the columns
-    bool of_elements;              ///< rows are elements of a list, columns their keys
+    const scree_section *elements; ///< rows are elements of a list with these keys, or lists (NULL)
     bool begun;                    ///< the names of the columns, or a first row, have been read
 } table;
 
@@ -86,11 +87,11 @@ static bool refuse(const table *t, const char *message)
 static bool add_row(table *t, char *const cells[], const size_t columns[], size_t count)
 {
     if (t->list->count == SCREE_TABLE_ROWS) return refuse(t, "a table has at most 2000 rows");
-    const scree_node_kind kind = t->of_elements ? SCREE_NODE_MAPPING : SCREE_NODE_LIST;
+    const scree_node_kind kind = t->elements ? SCREE_NODE_MAPPING : SCREE_NODE_LIST;
     scree_node *row = append(t, t->list, &(scree_node){.kind = kind, .place = t->place});
     for (size_t k = 0; row && k < count; k++) {
-        if (t->of_elements && !t->names[k]) return refuse(t, "this row has more values than the first has names");
-        if (t->of_elements && !cells[k][0]) continue;
+        if (t->elements && !t->names[k]) return refuse(t, "this row has more values than the first has names");
+        if (t->elements && !cells[k][0]) continue;
         scree_node cell = {.place = t->place, .text = with_unit(t, cells[k], t->units[k]), .key = t->names[k]};
         cell.place.column = (int)columns[k];
         cell.key_place = cell.place;
@@ -99,14 +100,20 @@ static bool add_row(table *t, char *const cells[], const size_t columns[], size_
     return row != NULL;
 }
 
-/// What a column is called, without its unit. False: memory ran out.
-static bool read_name(table *t, char *cell, size_t k)
+/// What a column is called, without its unit. False: elements have no such key, or memory ran out.
+static bool read_name(table *t, char *cell, size_t k, size_t column)
 {
     t->units[k] = unit_in(cell);
     char *name = trim(cell, cell + strcspn(cell, "["));
     t->names[k] = scree_arena_copy(t->reader->arena, name, strlen(name));
     if (!t->names[k]) scree_reader_fail(t->reader, strlen(name));
-    return t->names[k] != NULL;
+    if (!t->names[k] || !t->elements || scree_section_find(t->elements, name, strlen(name))) return t->names[k] != NULL;
+    scree_place place = t->place;
+    place.column = (int)column;
+    char path[SCREE_PATH_BYTES];
+    scree_key_join(path, t->path, name);
+    (void)scree_key_refuse(t->reader, place, path, name, NULL, t->elements);
+    return false;
 }
 
 /// A line without its end, which may be changed.
@@ -125,10 +132,10 @@ static bool read_line(table *t, char *line)
         at = stop + 1;
     }
     const bool names = !t->begun && !begins_with_number(cells[0]);
-    if (t->of_elements && !t->begun && !names) return refuse(t, "the first row does not name the columns");
+    if (t->elements && !t->begun && !names) return refuse(t, "the first row does not name the columns");
     t->begun = true;
     for (size_t k = 0; names && k < count; k++)
-        if (!read_name(t, cells[k], k)) return false;
+        if (!read_name(t, cells[k], k, columns[k])) return false;
     return names || add_row(t, cells, columns, count);
 }
 
@@ -158,7 +165,7 @@ static char *read_bytes(scree_reader *reader, const char *name, size_t *length, 
     return whole ? bytes : NULL;
 }
 
-bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, bool of_elements)
+bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, const scree_section *elements)
 {
     char name[LONGEST_PATH];
     const char *reason;
@@ -170,7 +177,7 @@ bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, 
                           reason);
     if (!bytes) return false;
     scree_node list = {.kind = SCREE_NODE_LIST, .place = node->place, .key = node->key, .key_place = node->key_place};
-    table t = {.reader = reader, .path = path, .place = node->place, .list = &list, .of_elements = of_elements};
+    table t = {.reader = reader, .path = path, .place = node->place, .list = &list, .elements = elements};
     t.place.source = scree_arena_copy(reader->arena, name, strlen(name));
     t.place.line = 0;
     if (!t.place.source) scree_reader_fail(reader, strlen(name));

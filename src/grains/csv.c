@@ -59,9 +59,10 @@ static scree_status read_name(const grain_text *text, size_t k, const scree_grai
         const char *nearest = scree_nearest(cell, names, COLUMNS);
         return grain_text_refuse(
             text, k, error,
-            "there is no column of this name%s%s%s; known are x, y, z, radius or diameter, vx, vy, "
-            "vz, wx, wy, wz, spin, angle, material, id",
-            nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'" : "");
+            "there is no column '%.*s'%s%s%s; known are x, y, z, radius or diameter, vx, vy, vz, wx, wy, wz, spin, "
+            "angle, material, id",
+            (int)(length < 40 ? length : 40), cell, nearest ? "; did you mean '" : "", nearest ? nearest : "",
+            nearest ? "'" : "");
     }
     for (size_t other = 0; other < k; other++)
         if (rows->to[other] == columns[found].to)

@@ -122,6 +122,12 @@ static void supply_length(scree_reader *reader, const char *path, double length)
     scree_case_supply(reader, path, text);
 }
 
+static void supply_limits(scree_reader *reader, double least, double most)
+{
+    supply_length(reader, "particles.radius_min", least);
+    supply_length(reader, "particles.radius_max", most);
+}
+
 static void supply_radii(scree_reader *reader, const scree_grains *g, double factor)
 {
     double least = INFINITY, most = 0;
@@ -129,9 +135,14 @@ static void supply_radii(scree_reader *reader, const scree_grains *g, double fac
         least = fmin(least, factor * g->column[SCREE_GRAIN_RADIUS][i]);
         most = fmax(most, factor * g->column[SCREE_GRAIN_RADIUS][i]);
     }
-    if (!(least > 0)) return;
-    supply_length(reader, "particles.radius_min", least);
-    supply_length(reader, "particles.radius_max", most);
+    if (least > 0) supply_limits(reader, least, most);
+}
+
+/// Of a file that cannot be read, which the rules refuse: nobody is asked for what stands in it.
+static void supply_stand_ins(scree_reader *reader, bool count, bool radii)
+{
+    if (count) scree_case_supply(reader, "particles.count", "1");
+    if (radii) supply_limits(reader, 1, 1);
 }
 
 /// Number, limits of the radii and, where there is but one, the material of the particles are those of the file.
@@ -157,7 +168,10 @@ static void supply(scree_reader *reader, const scree_node *stage)
                                           .time = 1,
                                           .frame = number_of(stage, "frame", "1", NAN)};
     scree_file_beside(reader, file, path, sizeof path);
-    if (scree_grains_read(path, &options, &g, &ignored)) return; // the rules say why
+    if (scree_grains_read(path, &options, &g, &ignored)) {
+        supply_stand_ins(reader, count, !sized);
+        return;
+    }
     (void)snprintf(text, sizeof text, "%zu", g.count);
     if (count) scree_case_supply(reader, "particles.count", text);
     if (!sized && g.column[SCREE_GRAIN_RADIUS]) supply_radii(reader, &g, factor);

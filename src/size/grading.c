@@ -1,10 +1,10 @@
 /// A grading curve: the openings of sieves and the share of the mass that passes each, from nothing to all. Grains have
 /// one density; the opening that one just passes is its diameter (of a polygon that of the disc of equal area).
 ///
-/// Between two sieves the passing grows in proportion to the logarithm of the size, as the curve is drawn, or to the size. A
-/// share of mass that is constant in ln R, or in R, is a density by number that falls as R^-n, n = d + 1, or n = d, in
-/// d dimensions: so each piece is a power law (size/power_law.h), of a weight by number of its share of the mass over
-/// <R^d>. Grains of one radius lie between sieves of the same opening. Cost: linear in the sieves.
+/// Between two sieves the passing grows in proportion to the logarithm of the size, as the curve is drawn, or to the
+/// size. A share of mass that is constant in ln R, or in R, is a density by number that falls as R^-n, n = d + 1, or n
+/// = d, in d dimensions: so each piece is a power law (size/power_law.h), of a weight by number of its share of the
+/// mass over <R^d>. Grains of one radius lie between sieves of the same opening. Cost: linear in the sieves.
 #include "size/grading.h"
 #include "size/limits.h"
 #include "size/power_law.h"
@@ -101,6 +101,7 @@ static bool wrong(const void *own, scree_size_problem *problem)
     *problem = (scree_size_problem){.key = "grading"};
     for (int64_t i = 0; i + 1 < c->sieve_count; i++) {
         const sieve *a = &c->grading[i], *b = &c->grading[i + 1];
+        if (isnan(a->sieve) || isnan(b->sieve)) return false; // refused where it was read
         if (b->passing < a->passing)
             (void)snprintf(problem->text, sizeof problem->text,
                            "the curve falls: %.6g %% pass the sieve of %.6g mm, and %.6g %% that of %.6g mm",

@@ -27,20 +27,29 @@ static inline scree_status case_parse(const char *text, const char *const *overr
     return scree_case_parse(text, strlen(text), "small.yaml", &options, c, problems);
 }
 
-/// A case that is not valid: one of its problems says message.
-static inline void case_refused(const char *text, const char *const *overrides, size_t count, const char *message)
+/// A case that is not valid: one of its problems says message. Returns their number.
+static inline size_t case_refused(const char *text, const char *const *overrides, size_t count, const char *message)
 {
     scree_case *c;
     scree_problems *problems;
     char line[2048] = "nothing was refused";
     if (case_parse(text, overrides, count, &c, &problems) == SCREE_OK) fail_msg("not refused: %s", message);
     bool found = false;
-    for (size_t k = 0; k < scree_problems_count(problems) && !found; k++) {
+    const size_t all = scree_problems_count(problems);
+    for (size_t k = 0; k < all && !found; k++) {
         scree_error_format(scree_problems_get(problems, k), line, sizeof line);
         found = strstr(line, message) != NULL;
     }
     if (!found) fail_msg("'%s' is not in: %s", message, line);
     scree_problems_free(problems);
+    return all;
+}
+
+/// The same, and it says nothing else.
+static inline void case_refused_alone(const char *text, const char *const *overrides, size_t count, const char *message)
+{
+    const size_t all = case_refused(text, overrides, count, message);
+    if (all != 1) fail_msg("%zu problems, and not only: %s", all, message);
 }
 
 /// A case that must be valid; free it. What is wrong with it is printed.

@@ -332,7 +332,7 @@ static void a_case_leaves_out_what_the_file_says(void **unused)
     }
     const char *const missing[] = {"stages.0.file=/nowhere.csv"};
     (void)snprintf(text, sizeof text, "%s" OUT "stages: [{stage: prepare, method: file, file: %s}]\n", begin, path);
-    case_refused(text, missing, 1, "particles.count: required");
+    case_refused_alone(text, missing, 1, "stages.0.file: ");
     // Two materials: which one is not known.
     (void)snprintf(text, sizeof text, HEAD OUT "stages: [{stage: prepare, method: file, file: %s}]\n", path);
     case_refused(text, NULL, 0, "particles.material: required");
@@ -347,6 +347,7 @@ static void gradings_stand_in_files(void **unused)
     } wrong[] = {
         {"0.5, 0\n2, 100\n", "the first row does not name the columns"},
         {"sieve [mm], pasing [%]\n0.5, 0\n2, 100\n", "did you mean 'passing'"},
+        {"size [mm], passing [%]\n0.5, 0\n2, 100\n", "grading.csv:1:1: particles.grading.size: unknown key"},
         {"sieve [mm], passing [%]\n0.5, 0\n2, 100, 3\n", "more values than the first has names"},
         {"sieve [mm], passing [%]\n0.5, 0\n1, 60\n2, 50\n3, 100\n", "the curve falls: 60 % pass the sieve of 1 mm"},
         {"sieve [mm], passing [%]\n0.5, 0\n", "1 element is too few"},
@@ -365,7 +366,7 @@ static void gradings_stand_in_files(void **unused)
     scree_case_free(c);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         (void)snprintf(text, sizeof text, form, write_file("grading.csv", wrong[k].table));
-        case_refused(text, NULL, 0, wrong[k].message);
+        case_refused_alone(text, NULL, 0, wrong[k].message);
     }
 }
 
