@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "case/csv.h"
+#include "case/unknown_key.h"
 
 #include <scree/scree.h>
 
@@ -11,8 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { MOST_KEYS = 64 };
 
 void scree_key_join(char out[SCREE_PATH_BYTES], const char *path, const char *name)
 {
@@ -61,31 +60,14 @@ static bool is_of_another_kind(const scope *s, scree_node *child, const char *pa
     return true;
 }
 
-const scree_key *scree_key_refuse(scree_reader *reader, scree_place place, const char *path, const char *name,
-                                  const char *value, const scree_section *section)
-{
-    const char *names[MOST_KEYS];
-    char accepted[256] = "";
-    size_t count = 0, length = 0;
-    for (size_t i = 0; i < section->count && count < MOST_KEYS; i++) {
-        names[count++] = section->keys[i].name;
-        if (length < sizeof accepted)
-            length += (size_t)snprintf(accepted + length, sizeof accepted - length, "%s%s", i > 0 ? ", " : "",
-                                       section->keys[i].name);
-    }
-    const char *nearest = scree_nearest(name, names, count);
-    scree_problem_add(reader, place, path, value, nearest ? nearest : accepted, "unknown key%s%s%s",
-                      nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
-    return nearest ? scree_section_find(section, nearest, strlen(nearest)) : NULL;
-}
-
 /// Notes an unknown key. Returns the bit of the key that was probably meant, or 0: that one is then not missed too.
 static uint64_t refuse_unknown(const scope *s, scree_node *child)
 {
     char path[SCREE_PATH_BYTES];
     scree_key_join(path, s->path, child->key);
     if (is_of_another_kind(s, child, path) || scree_problem_omit(s->reader, child->key_place)) return 0;
-    const scree_key *meant = scree_key_refuse(s->reader, child->key_place, path, child->key, child->text, s->section);
+    const scree_key *meant =
+        scree_unknown_key_refuse(s->reader, child->key_place, path, child->key, child->text, s->section);
     return meant ? (uint64_t)1 << (meant - s->section->keys) : 0;
 }
 

@@ -32,11 +32,6 @@ typedef struct scree_usage {
 scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
                             const scree_key *key);
 
-/// Notes that `section` has no key `name`, with the nearest of those that it has, which is returned, or else (NULL) all.
-/// value: what the case gives it, or NULL.
-const scree_key *scree_key_refuse(scree_reader *reader, scree_place place, const char *path, const char *name,
-                                  const char *value, const scree_section *section);
-
 /// The condition after the first of `when`, or NULL.
 const char *scree_next_condition(const char *when);
 

@@ -2,7 +2,8 @@
 #include "case/csv.h"
 
 #include "base/memory.h"
-#include "case/check.h"
+#include "case/schema.h"
+#include "case/unknown_key.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -110,9 +111,9 @@ static bool read_name(table *t, char *cell, size_t k, size_t column)
     if (!t->names[k] || !t->elements || scree_section_find(t->elements, name, strlen(name))) return t->names[k] != NULL;
     scree_place place = t->place;
     place.column = (int)column;
-    char path[SCREE_PATH_BYTES];
-    scree_key_join(path, t->path, name);
-    (void)scree_key_refuse(t->reader, place, path, name, NULL, t->elements);
+    char path[200];
+    (void)snprintf(path, sizeof path, "%s.%s", t->path, name);
+    (void)scree_unknown_key_refuse(t->reader, place, path, name, NULL, t->elements);
     return false;
 }
 
