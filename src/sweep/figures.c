@@ -371,8 +371,8 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
         if (lines == 1) continue;
         scree_point_label(sweep, k * r.each, sweep->dimension_count - 1, text, sizeof text);
         plain(label[k], text);
+        closed->label = NULL; // where there are none, the points themselves
         points->label = label[k];
-        closed->label = NULL;
         points->colour = closed->colour = (int)k + 1;
     }
     name_label(x_label, name_x, unit_of(name_x));

@@ -61,6 +61,13 @@ peaks=($("$scree" get s/members/000-friction=0.2-seed=1 peak_stress_ratio) $("$s
 # 12.7062: Student's t for one degree of freedom, four decimals; half = t |a - b| / 2.
 awk -F, -v a="${peaks[0]}" -v b="${peaks[1]}" 'NR == 2 { d = a - b; if (d < 0) d = -d; half = 12.7062 * d / 2; m = (a + b) / 2
     ok = ($4 - m)^2 < 1e-20 && ($7 - m - half)^2 < 1e-8 * half^2 && $8 == 2; exit !ok }' s/table.csv || complain "mean or interval: $(sed -n 2p s/table.csv)"
+# Each line of a relation is named.
+sed 's/^curves.*/relations: [{x: steps, y: peak_stress_ratio}]/; s/^realisations: 2/realisations: 1/
+    s,^  - {key: materials.*,&\n  - {key: stages.compress.rate\, values: [0.5 1/s\, 0.6 1/s]},' tiny.yaml >lines.yaml
+expect 0 'means in lines/table.csv' "$scree" sweep lines.yaml -o lines --jobs 2
+for friction in 0.2 0.5; do
+    grep -q "friction $friction" lines/figures/peak_stress_ratio-over-steps.gp || complain "no line is called friction $friction"
+done
 touch stamp
 expect 0 '4 of 4 members are done' "$scree" sweep tiny.yaml -o s
 [ -n "$(find s/members -name run.h5 -newer stamp)" ] && complain "a finished member was run again"
