@@ -129,7 +129,7 @@ static scree_status draw_dispersion(const char *path, const scree_series *table,
     if (!c.component || !c.wavenumber || !c.frequency || !c.share)
         return scree_error_set(error, SCREE_ERROR_INPUT, "%s lacks a column", SCREE_FILE_DISPERSION);
     for (int b = 0; b < BRANCHES; b++, room += count) {
-        char name[16];
+        char name[24];
         (void)snprintf(name, sizeof name, "wave_%d", b + 1);
         const double *wave = scree_series_get(table, name);
         if (wave) add_line(&c, wave, count, (int)c.component[0], false, room, line, &lines);
