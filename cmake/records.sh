@@ -2,7 +2,7 @@
 # Runs outlive the machine that made them: keeps, of each sweep below OUT, what a report and a later `scree reproduce` need
 # (case, results, and the columns of its mean curves), and puts back what is not there.
 #     records.sh keep    OUT RECORDS      members of OUT/SWEEP that are done are added to RECORDS/SWEEP.tar.xz
-#     records.sh restore OUT RECORDS      RECORDS/SWEEP.tar.xz -> OUT/SWEEP; files that are there stay as they are
+#     records.sh restore OUT RECORDS      RECORDS/SWEEP.tar.xz -> OUT/SWEEP; members that are there, even in part, stay as they are
 # A member that was put back is done for a sweep: its case and its summary.json say so. It has no snapshots, and its
 # series.csv has the columns of the curves of its sweep alone, to seven digits. Sweeps that average over snapshots
 # (`ensemble`) are not kept, nor are members that are not of the sweep any more.
@@ -62,8 +62,6 @@ gather() {
 keep() {
     local sweep name record
     mkdir -p "$records"
-    scratch=$(mktemp -d)
-    trap 'rm -rf "$scratch"' EXIT
     for sweep in "$out"/*/; do
         name=$(basename "$sweep") record=$records/$(basename "$sweep").tar.xz
         [ -e "$sweep/sweep.json" ] && [ -e "$sweeps/$name.yaml" ] && [ -n "$(finished "$sweep")" ] || continue
@@ -78,13 +76,21 @@ keep() {
 }
 
 restore() {
-    local record
-    mkdir -p "$out"
+    local record name entry
     for record in "$records"/*.tar.xz; do
-        [ ! -e "$record" ] || tar -C "$out" --skip-old-files -xJf "$record"
+        [ -e "$record" ] || continue
+        name=$(basename "$record" .tar.xz)
+        tar -C "$scratch" -xJf "$record"
+        mkdir -p "$out/$name/members"
+        for entry in "$scratch/$name/sweep.json" "$scratch/$name"/members/*/; do
+            entry=${entry#"$scratch/"} entry=${entry%/}
+            [ -e "$out/$entry" ] || mv "$scratch/$entry" "$out/$entry"
+        done
     done
 }
 
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 case $what in
     keep | restore) $what ;;
     *) echo "records.sh: keep or restore, not '$what'" >&2; exit 2 ;;

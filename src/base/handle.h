@@ -1,6 +1,6 @@
 /// Handles of the library in builds with assertions: the use of one that was freed, or its second freeing, fails an
-/// assertion that stands in the function which was given it. Where a freed handle lay is remembered until another is made there;
-/// the memory itself is not looked at. Without assertions nothing is kept and nothing is asked.
+/// assertion that stands in the function which was given it. Where a freed handle lay is remembered until another is
+/// made there; the memory itself is not looked at. Without assertions nothing is kept and nothing is asked.
 #ifndef SCREE_BASE_HANDLE_H
 #define SCREE_BASE_HANDLE_H
 

@@ -2,9 +2,9 @@
 /// one density; the opening that one just passes is its diameter (of a polygon that of the disc of equal area).
 ///
 /// Between two sieves the passing grows in proportion to the logarithm of the size, as the curve is drawn, or to the
-/// size. A share of mass that is constant in ln R, or in R, is a density by number that falls as R^-n, n = d + 1, or n
-/// = d, in d dimensions: so each piece is a power law (size/power_law.h), of a weight by number of its share of the
-/// mass over <R^d>. Grains of one radius lie between sieves of the same opening. Cost: linear in the sieves.
+/// size. A share of mass that is constant in ln R, or in R, is a density by number that falls as R^-n, with n = d + 1
+/// or n = d in d dimensions: so each piece is a power law (size/power_law.h), of a weight by number of its share of
+/// the mass over <R^d>. Grains of one radius lie between sieves of the same opening. Cost: linear in the sieves.
 #include "size/grading.h"
 #include "size/limits.h"
 #include "size/power_law.h"

@@ -32,10 +32,16 @@ same 2 "$(tar -tJf kept/$name.tar.xz | grep -c summary.json)" "members that are 
 sed -i 's/000-seed=301/000-seed=901/' out/$name/sweep.json
 expect 0 "$name.tar.xz: 1 members" bash "$records" keep out kept
 
-# What is there stays as it is.
-echo own >again/$members/000-seed=301/summary.json
+# What is there stays as it is; a member that is there in part gets nothing of what another run left.
+echo own >again/$members/001-seed=302/summary.json
 expect 0 '' bash "$records" restore again kept
-same own "$(cat again/$members/000-seed=301/summary.json)" "what was there"
+same own "$(cat again/$members/001-seed=302/summary.json)" "what was there"
+rm again/$members/001-seed=302/summary.json
+expect 0 '' bash "$records" restore again kept
+[ ! -e again/$members/001-seed=302/summary.json ] || complain "a member that is there in part was called done"
+rm -r again/$members/001-seed=302
+expect 0 '' bash "$records" restore again kept
+[ -s again/$members/001-seed=302/summary.json ] || complain "a member that was not there was not put back"
 expect 2 'keep +OUT RECORDS' bash "$records" keep
 expect 2 "keep or restore, not 'lose'" bash "$records" lose out kept
 
