@@ -25,6 +25,8 @@ static const char *candidates(scree_value_kind kind)
         return "compgen -W \"$(scree plot \"${COMP_WORDS[2]}\" --list 2>/dev/null | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_VERB:
         return "compgen -W \"$verbs\" -- \"$word\"";
+    case SCREE_VALUE_KEY:
+        return "compgen -S = -W \"$(_scree_keys \"${COMP_WORDS[2]}\")\" -- \"$word\"";
     case SCREE_VALUE_TEXT:
         break;
     }
@@ -38,8 +40,9 @@ static void write_value(FILE *file, const scree_verb *verb, const scree_verb_opt
     if (!row->value) return;
     fprintf(file, "    \"%s --%s\"", verb->name, row->name);
     if (row->letter) fprintf(file, "|\"%s -%c\"", verb->name, row->letter);
+    if (command && row->kind == SCREE_VALUE_KEY) fprintf(file, ") compopt -o nospace 2>/dev/null");
     if (command)
-        fprintf(file, ") mapfile -t COMPREPLY < <(%s); return;;\n", command);
+        fprintf(file, "%s mapfile -t COMPREPLY < <(%s); return;;\n", row->kind == SCREE_VALUE_KEY ? ";" : ")", command);
     else
         fprintf(file, ") return;;\n");
 }
@@ -97,10 +100,50 @@ static void write_group(FILE *file, size_t number)
     fprintf(file, "\" -- \"$word\")\n            return\n        fi\n        verb=\"$verb ${COMP_WORDS[2]}\";;\n");
 }
 
+/// The function that prints the paths of the keys of a case, from the form that `scree check` writes: lines "key:
+/// value", sections and lists by the column they begin in. Items of lists are called by number, and by their name, else
+/// their kind, numbered from 1 where there are several (case/usage.c).
+static void write_keys(FILE *file)
+{
+    fputs("_scree_keys() {\n"
+          "    scree check \"$1\" 2>/dev/null | awk '\n"
+          "        { sub(/ +# .*/, \"\") }\n"
+          "        match($0, /^ *(- )?[a-z_0-9]+:/) {\n"
+          "            key = substr($0, 1, RLENGTH - 1); value = substr($0, RLENGTH + 2)\n"
+          "            column = match(key, /[^ ]/) - 1; begins = key ~ /^ *- /\n"
+          "            while (n > 0 && at[n] >= column) n--\n"
+          "            if (begins) { at[++n] = column; path[n] = path[n - 1] items[path[n - 1]]++ \".\" }\n"
+          "            sub(/^ *(- )?/, \"\", key)\n"
+          "            if (begins && value ~ /^[a-z_]+$/) { kind[path[n]] = value; list[path[n]] = path[n - 1] }\n"
+          "            if (key == \"name\" && value != \"auto\") name[path[n]] = value\n"
+          "            if (value == \"\") { at[++n] = column; path[n] = path[n - 1] key \".\" } else leaf[++leaves] = "
+          "path[n] key\n"
+          "            if (begins) order[++entries] = path[n]\n"
+          "        }\n"
+          "        END {\n"
+          "            for (i = 1; i <= entries; i++) {\n"
+          "                p = order[i]; if ((p in kind) && !(p in name)) number[p] = ++all[list[p], kind[p]]\n"
+          "            }\n"
+          "            for (p in number) name[p] = kind[p] (all[list[p], kind[p]] > 1 ? \"_\" number[p] : \"\")\n"
+          "            for (i = 1; i <= leaves; i++) {\n"
+          "                k = split(leaf[i], part, \".\"); p = \"\"; by_name = \"\"\n"
+          "                for (j = 1; j <= k; j++) {\n"
+          "                    p = p part[j] \".\"\n"
+          "                    by_name = by_name (j > 1 ? \".\" : \"\") ((p in name) && p != \"\" && part[j] ~ "
+          "/^[0-9]/ ? name[p] : part[j])\n"
+          "                }\n"
+          "                print leaf[i]; if (by_name != leaf[i]) print by_name\n"
+          "            }\n"
+          "        }'\n"
+          "}\n",
+          file);
+}
+
 void scree_help_write_completion(FILE *file)
 {
+    fprintf(file, "# Completion of scree for bash, made by `scree help --completion bash`.\n");
+    write_keys(file);
     fprintf(file,
-            "# Completion of scree for bash, made by `scree help --completion bash`.\n"
             "_scree() {\n"
             "    local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}\n"
             "    local verbs='");

@@ -33,7 +33,7 @@ const scree_verb_option scree_common_options[] = {
     {                                                                                                                  \
         .name = "set", .value = "KEY=VALUE",                                                                           \
         .meaning = "change one value of the case, such as `--set materials.0.friction=0.3`; may be repeated",          \
-        .repeatable = true                                                                                             \
+        .repeatable = true, .kind = SCREE_VALUE_KEY                                                                    \
     }
 #define OPTION_QUICK                                                                                                   \
     {                                                                                                                  \
@@ -373,12 +373,14 @@ static const scree_verb run_verbs[] = {
     {
         .name = "report",
         .meaning = "compare results with what the published sources state",
-        .text = "Writes the reproduction page as Markdown: every statement of the sources with its value, the value "
-                "found with its confidence interval, and whether it agrees, differs or is undecided. The runs are "
-                "looked for in the folders given: folders of runs, of sweeps, or folders that hold such. A statement "
-                "whose runs are not there is `not run`. Where FILE is there and a case rests on more realisations in it "
-                "than the folders hold, its section stays (remove FILE to begin anew). Statements of your own sources are judged in the same way "
-                "(`--statements`).",
+        .text =
+            "Writes the reproduction page as Markdown: every statement of the sources with its value, the value "
+            "found with its confidence interval, and whether it agrees, differs or is undecided. The runs are "
+            "looked for in the folders given: folders of runs, of sweeps, or folders that hold such. A statement "
+            "whose runs are not there is `not run`. Where FILE is there and a case rests on more realisations in it "
+            "than the folders hold, its section stays (remove FILE to begin anew). Statements of your own sources are "
+            "judged in the same way "
+            "(`--statements`).",
         .argument = {{"DIR", "folder of runs or sweeps", SCREE_VALUE_FOLDER, false, true}},
         .option = {{.name = "output",
                     .letter = 'o',

@@ -18,6 +18,7 @@ typedef enum scree_value_kind {
     SCREE_VALUE_FIGURE,  ///< the name of a figure of the run in the first argument
     SCREE_VALUE_VERB,
     SCREE_VALUE_SWEEP, ///< a sweep file or the name of a built-in sweep
+    SCREE_VALUE_KEY,   ///< KEY=VALUE, with a key of the case in the first argument
 } scree_value_kind;
 
 typedef struct scree_verb_argument {

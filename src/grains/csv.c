@@ -50,19 +50,20 @@ static scree_status read_name(const grain_text *text, size_t k, const scree_grai
     const char *names[COLUMNS];
     char *cell = text->cell[k];
     const size_t length = strcspn(cell, " \t[");
+    char name[41];
     int found = -1;
+    (void)snprintf(name, sizeof name, "%.*s", (int)(length < 40 ? length : 40), cell);
     for (int c = 0; c < COLUMNS; c++) {
         names[c] = columns[c].name;
         if (strlen(names[c]) == length && strncmp(names[c], cell, length) == 0) found = c;
     }
     if (found < 0) {
-        const char *nearest = scree_nearest(cell, names, COLUMNS);
+        const char *nearest = scree_nearest(name, names, COLUMNS);
         return grain_text_refuse(
             text, k, error,
-            "there is no column '%.*s'%s%s%s; known are x, y, z, radius or diameter, vx, vy, vz, wx, wy, wz, spin, "
+            "there is no column '%s'%s%s%s; known are x, y, z, radius or diameter, vx, vy, vz, wx, wy, wz, spin, "
             "angle, material, id",
-            (int)(length < 40 ? length : 40), cell, nearest ? "; did you mean '" : "", nearest ? nearest : "",
-            nearest ? "'" : "");
+            name, nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'" : "");
     }
     for (size_t other = 0; other < k; other++)
         if (rows->to[other] == columns[found].to)

@@ -321,6 +321,12 @@ static bool has_key(const char *text, const char *key)
     return false;
 }
 
+/// A case says its stages, if not its version; a sweep has neither.
+static bool is_case(const char *text)
+{
+    return !has_key(text, "sweep") && (has_key(text, "scree") || has_key(text, "stages"));
+}
+
 static bool is_built_in_case(const char *name)
 {
     for (size_t k = 0; k < scree_templates_count; k++)
@@ -329,13 +335,13 @@ static bool is_built_in_case(const char *name)
 }
 
 /// What is a case, or nothing that is known, is told as such, in place of the keys that it lacks.
-static scree_status refuse(const char *name, bool is_case, scree_problems **problems)
+static scree_status refuse(const char *name, bool of_case, scree_problems **problems)
 {
     scree_error error = {.status = SCREE_ERROR_INPUT};
     const char *names[256];
     size_t count = 0;
     (void)snprintf(error.file, sizeof error.file, "%s", name);
-    if (is_case)
+    if (of_case)
         (void)snprintf(error.message, sizeof error.message,
                        "this is a case, not a sweep: `scree run` runs it; a sweep names it as its `case`");
     else {
@@ -368,9 +374,7 @@ scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *
     if (access(name, F_OK) != 0) return refuse(name, is_built_in_case(name), problems);
     scree_status status = scree_case_text(name, &bytes, &in.length, problems);
     in.text = bytes;
-    if (!status)
-        status = has_key(bytes, "scree") && !has_key(bytes, "sweep") ? refuse(name, true, problems)
-                                                                     : read_text(&in, out, problems);
+    if (!status) status = is_case(bytes) ? refuse(name, true, problems) : read_text(&in, out, problems);
     scree_release(&bytes);
     return status;
 }

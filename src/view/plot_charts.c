@@ -1,4 +1,5 @@
-/// The charts of a run: columns of series.csv over the axial strain of the loading stage.
+/// The charts of a run: columns of series.csv over the axial strain of the loading stage. A number that the summary
+/// makes of a curve is marked on it, with how it was found.
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -21,6 +22,9 @@ typedef struct curve {
     bool dashed;
 } curve;
 
+/// What is marked on the first curve: its peak (io/loading_stage.h), or the results `mu` of its steady part.
+typedef enum chart_mark { NO_MARK, PEAK, STEADY } chart_mark;
+
 // clang-format off
 typedef struct chart_row {
     scree_figure figure;
@@ -28,33 +32,35 @@ typedef struct chart_row {
     const char *y_label; ///< "@" stands for the SI prefix that suits the values
     bool log_y;
     bool of_cell; ///< of samples that are loaded as a periodic cell alone
+    chart_mark mark;
     curve curve[CURVES]; ///< ended by a column that is NULL
 } chart_row;
 
 static const chart_row rows[] = {
     {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction", SCREE_WITH_LOADING},
-     "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, false, {
+     "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, false, NO_MARK, {
         {"volumetric_strain", "sum of increments", -100, BLUE, false},
         {"volumetric_strain_enclosed", "enclosed volume", -100, SKY, true},
         {"volumetric_strain_solid", "solid fraction", -100, VERMILLION, false}}},
     {{"stress-ratio", "axial over lateral stress, applied and from contacts", SCREE_WITH_LOADING},
-     "Stress ratio", "axial over lateral stress (1)", false, false, {
+     "Stress ratio", "axial over lateral stress (1)", false, false, PEAK, {
         {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
-    {{"shear-ratio", "shear stress over axial stress", SCREE_WITH_LOADING},
-     "Shear stress over normal stress", "shear over axial stress (1)", false, true, {
-        {"shear_ratio", NULL, 1, BLUE, false}}},
+    {{"shear-ratio", "friction of the sample, mu = shear stress over normal stress, and its mean over steady shear",
+      SCREE_WITH_LOADING},
+     "Shear stress over normal stress", "mu, shear over normal stress (1)", false, true, STEADY, {
+        {"mu", "of each sample", 1, BLUE, false}}},
     {{"slip", "mean slip speed at contacts over the reference velocity", SCREE_ON_REQUEST},
-     "Slip at contacts", "mean slip speed / v_R (1)", false, false, {
+     "Slip at contacts", "mean slip speed / v_R (1)", false, false, NO_MARK, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
     {{"stress", "axial and lateral stress, applied and from contacts", SCREE_ON_REQUEST},
-     "Stress, applied (lateral: without friction of the plates) and from contacts", "stress (@Pa), compression positive", false, false, {
+     "Stress, applied (lateral: without friction of the plates) and from contacts", "stress (@Pa), compression positive", false, false, NO_MARK, {
         {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
         {"stress_lateral_contacts", "lateral, contacts", 1, ORANGE, true}}},
     {{"energy", "works, losses, stored energies and the residual of their balance", SCREE_WITH_LOADING},
-     "Energy ledger", "energy (@J)", false, false, {
+     "Energy ledger", "energy (@J)", false, false, NO_MARK, {
         {"work_plates", "work of plates", 1, BLUE, false},
         {"work_pressure", "work of pressure", 1, SKY, false},
         {"work_periodic", "work of the cell", 1, BLUE, true},
@@ -67,21 +73,21 @@ static const chart_row rows[] = {
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
     {{"energy-stored", "stored energies and the residual of the balance", SCREE_ON_REQUEST},
-     "Stored energy and residual", "energy (@J)", false, false, {
+     "Stored energy and residual", "energy (@J)", false, false, NO_MARK, {
         {"elastic_normal", "elastic, normal", 1, PINK, false},
         {"elastic_tangential", "elastic, tangential", 1, PINK, true},
         {"kinetic", "kinetic", 1, BLACK, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
     {{"coordination", "contacts per particle, with and without rattlers", SCREE_WITH_LOADING},
-     "Coordination", "contacts per particle (1)", false, false, {
+     "Coordination", "contacts per particle (1)", false, false, NO_MARK, {
         {"coordination", "all particles", 1, BLUE, false},
         {"coordination_without_rattlers", "without rattlers", 1, VERMILLION, true}}},
     {{"solid-fraction", "solid fraction", SCREE_ON_REQUEST},
-     "Solid fraction", "solid fraction (1)", false, false, {
+     "Solid fraction", "solid fraction (1)", false, false, NO_MARK, {
         {"solid_fraction", NULL, 1, BLUE, false}}},
     {{"unbalanced-force", "mean unbalanced over mean contact force", SCREE_ON_REQUEST},
-     "Unbalanced force", "mean unbalanced over mean contact force (1)", true, false, {
+     "Unbalanced force", "mean unbalanced over mean contact force (1)", true, false, NO_MARK, {
         {"unbalanced_ratio", NULL, 1, BLUE, false}}},
 };
 // clang-format on
@@ -123,6 +129,20 @@ static bool is_nothing(const double *value, size_t count)
     return true;
 }
 
+/// Plates did work in the loading stage.
+static bool has_plates(const scree_plot_run *run)
+{
+    const double *work = scree_series_get(&run->series, "work_plates");
+    return work && !is_nothing(work + run->first_row, run->row_count);
+}
+
+/// What plates hold back by friction is in the lateral stress of the contacts, and not in that of the sides.
+static const char *label_of(const scree_plot_run *run, const curve *c)
+{
+    return strcmp(c->column, "stress_ratio_contacts") == 0 && has_plates(run) ? "contacts, with friction at plates"
+                                                                              : c->label;
+}
+
 /// Gathers the curves behind `value`, the strain in percent, one behind the other.
 static size_t gather_curves(const scree_plot_run *run, const chart_row *row, double *value, scree_chart_line *line)
 {
@@ -134,15 +154,68 @@ static size_t gather_curves(const scree_plot_run *run, const chart_row *row, dou
         // are nothing throughout, such as the work of gravity where there is none, are left out.
         if (!gather(run, c->column, c->factor, y)) continue;
         if (row->curve[2].column && is_nothing(y, run->row_count)) continue;
-        line[count++] = (scree_chart_line){
-            .x = value, .y = y, .count = run->row_count, .label = c->label, .dashed = c->dashed, .colour = c->colour};
+        line[count++] = (scree_chart_line){.x = value,
+                                           .y = y,
+                                           .count = run->row_count,
+                                           .label = label_of(run, c),
+                                           .dashed = c->dashed,
+                                           .colour = c->colour};
     }
     return count;
 }
 
+typedef struct mark {
+    double x[2], y[2], low[2], high[2];
+    char label[80];
+} mark;
+
+static bool mark_peak(const scree_plot_run *run, const chart_row *row, mark *m, scree_chart_line *line)
+{
+    const scree_loading_rows loading = {run->first_row, run->first_row + run->row_count};
+    const double *value = scree_series_get(&run->series, row->curve[0].column);
+    const scree_peak peak = scree_peak_find(value, scree_series_get(&run->series, "axial_strain"), loading);
+    m->x[0] = 100 * peak.strain;
+    m->y[0] = peak.value;
+    (void)snprintf(m->label, sizeof m->label, "peak %.3g, mean over %g %%", peak.value, 100 * SCREE_PEAK_WINDOW);
+    *line = (scree_chart_line){
+        .x = m->x, .y = m->y, .count = 1, .label = m->label, .points = true, .bare = true, .colour = BLACK};
+    return isfinite(peak.value);
+}
+
+static bool mark_steady(const scree_plot_run *run, mark *m, scree_chart_line *line)
+{
+    const double *strain = scree_series_get(&run->series, "axial_strain");
+    const double mean = scree_plot_result(run, "mu"), half = scree_plot_result(run, "mu_error");
+    m->x[0] = 100 * scree_plot_result(run, "mu_from");
+    m->x[1] = strain ? 100 * strain[run->first_row + run->row_count - 1] : NAN;
+    for (int k = 0; k < 2; k++) {
+        m->y[k] = mean;
+        m->low[k] = mean - half;
+        m->high[k] = mean + half;
+    }
+    const int length = snprintf(m->label, sizeof m->label, "steady mean %.3g", mean);
+    *line = (scree_chart_line){.x = m->x, .y = m->y, .count = 2, .label = m->label, .colour = VERMILLION};
+    if (isfinite(half)) {
+        (void)snprintf(m->label + length, sizeof m->label - (size_t)length, " ± %.2g (95 %%)", half);
+        line->low = m->low;
+        line->high = m->high;
+    }
+    return isfinite(mean);
+}
+
+/// Whether there is something to mark: `line` is that, with its values in *m.
+static bool add_mark(const scree_plot_run *run, const chart_row *row, mark *m, scree_chart_line *line)
+{
+    if (row->mark == PEAK) return mark_peak(run, row, m, line);
+    return row->mark == STEADY && mark_steady(run, m, line);
+}
+
+/// A sample that was sheared has no ratio of axial to lateral stress that would say something.
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
 {
-    return !run->series_status && (run->of_cell || !((const chart_row *)figure)->of_cell);
+    const chart_row *row = (const chart_row *)figure;
+    if (row->mark == PEAK && run->of_cell && isfinite(scree_plot_result(run, "mu"))) return false;
+    return !run->series_status && (run->of_cell || !row->of_cell);
 }
 
 static scree_status has_columns(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
@@ -159,7 +232,8 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     const chart_row *row = (const chart_row *)job->figure;
     char label[128], strain[48];
     double *value = NULL;
-    scree_chart_line line[CURVES];
+    scree_chart_line line[CURVES + 1];
+    mark marked;
     scree_status status = scree_allocate(&value, (CURVES + 1) * run->row_count, sizeof *value, error);
     if (status) return status;
     (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
@@ -168,6 +242,7 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     double scale =
         scree_plot_label(label, sizeof label, row->y_label, scree_plot_largest(first, count * run->row_count));
     for (size_t k = 0; k < count * run->row_count; k++) first[k] *= scale;
+    count += add_mark(run, row, &marked, &line[count]);
     scree_chart chart = {.title = row->title,
                          .x_label = strain,
                          .y_label = label,

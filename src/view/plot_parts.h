@@ -75,6 +75,9 @@ double scree_plot_label(char *label, size_t size, const char *pattern, double la
 /// Largest finite magnitude; 1 when all are nothing.
 double scree_plot_largest(const double *value, size_t count);
 
+/// A number of summary.json; NAN: it is not there.
+double scree_plot_result(const scree_plot_run *run, const char *name);
+
 /// Strain as text of a file name or a title: whole percents where it is one.
 void scree_plot_percent(char *text, size_t size, double strain, bool name);
 

@@ -37,14 +37,6 @@ static scree_status applies(const scree_plot_run *run, const scree_figure_job *j
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows", SCREE_FILE_SERIES);
 }
 
-/// A result of the run; NAN: there is none.
-static double result(const scree_plot_run *run, const char *name)
-{
-    char text[64];
-    scree_error ignored;
-    return scree_result_get(run->directory, name, text, sizeof text, &ignored) ? NAN : strtod(text, NULL);
-}
-
 /// From foot to apex to foot: the angles by the corners. mm
 typedef struct corners {
     double x[3], y[3];
@@ -52,9 +44,9 @@ typedef struct corners {
 
 static corners find_corners(const scree_plot_run *run)
 {
-    const double height = 1e3 * result(run, "pile_height"), apex = 1e3 * result(run, "pile_apex");
-    const double left = result(run, "angle_of_repose_left") * M_PI / 180;
-    const double right = result(run, "angle_of_repose_right") * M_PI / 180;
+    const double height = 1e3 * scree_plot_result(run, "pile_height"), apex = 1e3 * scree_plot_result(run, "pile_apex");
+    const double left = scree_plot_result(run, "angle_of_repose_left") * M_PI / 180;
+    const double right = scree_plot_result(run, "angle_of_repose_right") * M_PI / 180;
     return (corners){{apex - height / tan(left), apex, apex + height / tan(right)}, {0, height, 0}};
 }
 
@@ -63,8 +55,10 @@ static void find_fit(const scree_plot_run *run, const scree_series *table, int s
 {
     const double *place = scree_series_get(table, "x"), *surface = scree_series_get(table, "height");
     const double *heap = scree_series_get(table, "heap");
-    const double angle = result(run, side < 0 ? "angle_of_surface_left" : "angle_of_surface_right") * M_PI / 180;
-    const double height = result(run, "pile_height"), apex = result(run, "pile_apex"), slope = -side * tan(angle);
+    const double angle =
+        scree_plot_result(run, side < 0 ? "angle_of_surface_left" : "angle_of_surface_right") * M_PI / 180;
+    const double height = scree_plot_result(run, "pile_height"), apex = scree_plot_result(run, "pile_apex"),
+                 slope = -side * tan(angle);
     double count = 0, middle = 0, level = 0;
     for (size_t k = 0; k < table->row_count; k++) {
         if (heap[k] == 0 || side * (place[k] - apex) < 0) continue;
@@ -97,8 +91,8 @@ static scree_status draw_outline(const scree_plot_run *run, const char *path, sc
     for (int side = 0; side < 2 && !status; side++) find_fit(run, &table, side ? 1 : -1, fit_x[side], fit_y[side]);
     (void)snprintf(title, sizeof title,
                    "Outline of the pile: %.1f and %.1f degrees by its corners, %.1f and %.1f by fits",
-                   result(run, "angle_of_repose_left"), result(run, "angle_of_repose_right"),
-                   result(run, "angle_of_surface_left"), result(run, "angle_of_surface_right"));
+                   scree_plot_result(run, "angle_of_repose_left"), scree_plot_result(run, "angle_of_repose_right"),
+                   scree_plot_result(run, "angle_of_surface_left"), scree_plot_result(run, "angle_of_surface_right"));
     const scree_chart_line line[] = {
         {.x = x, .y = y, .count = table.row_count, .label = "surface", .points = true, .bare = true, .colour = 1},
         {.x = c.x, .y = c.y, .count = 3, .label = "corners", .colour = 2},

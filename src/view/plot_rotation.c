@@ -24,14 +24,6 @@
 
 enum { BLUE = 1, VERMILLION, GREEN, PINK, SKY, ORANGE, BLACK };
 
-/// A number of summary.json; NAN: it is not there.
-static double result(const scree_plot_run *run, const char *name)
-{
-    char text[128];
-    scree_error error;
-    return scree_result_get(run->directory, name, text, sizeof text, &error) ? NAN : strtod(text, NULL);
-}
-
 static scree_status read_table(const scree_plot_run *run, const char *name, scree_series *table, scree_error *error)
 {
     char path[PATH_MAX];
@@ -98,16 +90,18 @@ static scree_status chart_decay(const scree_plot_run *run, const char *path, con
         high[k] = c->mean[k] + c->error[k];
     }
     select_bodies(c, bodies->row_count, lowest, ratio);
-    double background = result(run, "rotation_background"), length = result(run, "rotation_decay_length");
-    double limit = result(run, "rotation_felt"), end[2] = {0.5, far}, floor[2] = {background, background};
+    double background = scree_plot_result(run, "rotation_background"),
+           length = scree_plot_result(run, "rotation_decay_length");
+    double limit = scree_plot_result(run, "rotation_felt"), end[2] = {0.5, far}, floor[2] = {background, background};
     double felt[2] = {limit, limit};
     (void)snprintf(fit, sizeof fit, "exp(−r/ℓ), ℓ = %.2f", length);
     (void)snprintf(title, sizeof title, "Rotations around the forced particle reach %.1f mean diameters",
-                   result(run, "rotation_reach"));
-    if (isfinite(result(run, "rotation_decay_length_high")))
+                   scree_plot_result(run, "rotation_reach"));
+    if (isfinite(scree_plot_result(run, "rotation_decay_length_high")))
         (void)snprintf(title, sizeof title, "Rotations reach %.1f mean diameters, decay length %.2f (%.2f to %.2f)",
-                       result(run, "rotation_reach"), length, result(run, "rotation_decay_length_low"),
-                       result(run, "rotation_decay_length_high"));
+                       scree_plot_result(run, "rotation_reach"), length,
+                       scree_plot_result(run, "rotation_decay_length_low"),
+                       scree_plot_result(run, "rotation_decay_length_high"));
     const scree_chart_line line[] = {
         {.x = c->body_distance,
          .y = ratio,
@@ -291,24 +285,24 @@ static void draw_rose_page(cairo_t *cairo, void *user)
 static scree_status has_plane(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     (void)job;
-    if (isfinite(result(run, "rotation_tensor_angle"))) return SCREE_OK;
+    if (isfinite(scree_plot_result(run, "rotation_tensor_angle"))) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_INPUT, "a rose is drawn in two dimensions only");
 }
 
 static scree_status draw_rose(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     scree_series table;
-    rose r = {.axis = result(run, "rotation_tensor_angle"),
-              .first = result(run, "rotation_tensor_first"),
-              .last = result(run, "rotation_tensor_last"),
-              .peak_angle = result(run, "rose_eigenvector_angle"),
-              .off = result(run, "rotation_tensor_off_diagonal"),
-              .correlation = result(run, "rotation_chain_correlation"),
-              .low = result(run, "rotation_chain_correlation_low"),
-              .high = result(run, "rotation_chain_correlation_high"),
-              .across = result(run, "rotation_across_chains"),
-              .across_low = result(run, "rotation_across_chains_low"),
-              .across_high = result(run, "rotation_across_chains_high")};
+    rose r = {.axis = scree_plot_result(run, "rotation_tensor_angle"),
+              .first = scree_plot_result(run, "rotation_tensor_first"),
+              .last = scree_plot_result(run, "rotation_tensor_last"),
+              .peak_angle = scree_plot_result(run, "rose_eigenvector_angle"),
+              .off = scree_plot_result(run, "rotation_tensor_off_diagonal"),
+              .correlation = scree_plot_result(run, "rotation_chain_correlation"),
+              .low = scree_plot_result(run, "rotation_chain_correlation_low"),
+              .high = scree_plot_result(run, "rotation_chain_correlation_high"),
+              .across = scree_plot_result(run, "rotation_across_chains"),
+              .across_low = scree_plot_result(run, "rotation_across_chains_low"),
+              .across_high = scree_plot_result(run, "rotation_across_chains_high")};
     scree_status status = read_table(run, FILE_ROSE, &table, error);
     if (!status) status = get_column(&table, FILE_ROSE, "angle", &r.angle, error);
     if (!status) status = get_column(&table, FILE_ROSE, "radial_strength", &r.strength, error);
@@ -363,7 +357,7 @@ static scree_status gather_rotations(const scree_series *bodies, double **field,
 static scree_status draw_last(const scree_plot_run *run, const scree_figure_job *job, const double *field, size_t count,
                               scree_error *error)
 {
-    const double forced = result(run, "forced_particle");
+    const double forced = scree_plot_result(run, "forced_particle");
     scree_snapshot now;
     scree_status status = scree_snapshot_read(run->directory, run->snapshot_count - 1, &now, error);
     if (status) return status;

@@ -5,8 +5,11 @@
 #include "case/case.h"
 #include "io/run_directory.h"
 
+#include <scree/scree.h>
+
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Rows of loading before those of the loading stage.
@@ -208,6 +211,13 @@ scree_status scree_plot_read_two(const scree_plot_run *run, size_t first, size_t
     }
     if (status) scree_snapshot_destroy(a);
     return status;
+}
+
+double scree_plot_result(const scree_plot_run *run, const char *name)
+{
+    char text[128];
+    scree_error ignored;
+    return scree_result_get(run->directory, name, text, sizeof text, &ignored) ? NAN : strtod(text, NULL);
 }
 
 void scree_plot_percent(char *text, size_t size, double strain, bool name)

@@ -10,7 +10,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CURVES = 12, LABEL = 64 };
+enum { CURVES = 12, BESIDE = 2, LABEL = 64 };
+
+/// A straight line beside the curves.
+typedef struct slope {
+    double x[2], y[2];
+    char label[LABEL];
+} slope;
 
 typedef struct column_label {
     const char *column; ///< name, or with a "*" in front the end of the names
@@ -20,26 +26,58 @@ typedef struct column_label {
 typedef struct time_row {
     scree_figure figure;
     const char *title, *y_label; ///< "@" stands for the SI prefix that suits the values
-    column_label curve[CURVES];  ///< ended by a column that is NULL
+    /// What stands beside the curves, at most BESIDE lines; returns how many. NULL: nothing.
+    size_t (*beside)(const scree_plot_run *run, slope *line);
+    column_label curve[CURVES]; ///< ended by a column that is NULL
 } time_row;
+
+/// The column between its rows. time: s
+static double value_at(const scree_series *series, const double *column, double time)
+{
+    const double *at = scree_series_get(series, "time");
+    for (size_t k = 1; k < series->row_count; k++)
+        if (at[k] >= time && at[k] > at[k - 1])
+            return column[k - 1] + (column[k] - column[k - 1]) * (time - at[k - 1]) / (at[k] - at[k - 1]);
+    return column[series->row_count - 1];
+}
+
+/// Mean rate of the outflow, and Beverloo's, from where the steady part begins: masses as numbers of particles of the
+/// mean mass.
+static size_t rates_of_outflow(const scree_plot_run *run, slope *line)
+{
+    const double *number = scree_series_get(&run->series, "outflow"), *mass;
+    const double rate[BESIDE] = {scree_plot_result(run, "outflow_rate"), scree_plot_result(run, "beverloo_rate")};
+    const double begin = scree_plot_result(run, "outflow_begin"), end = scree_plot_result(run, "outflow_end");
+    size_t count = 0;
+    if (!number || !(mass = scree_series_get(&run->series, "outflow_mass")) || !(begin < end)) return 0;
+    const size_t last = run->series.row_count - 1;
+    const double from = value_at(&run->series, number, begin), of_mass = number[last] / mass[last];
+    for (; count < BESIDE && rate[count] > 0; count++) {
+        const double to =
+            fmin(end, begin + (number[last] - from) / (rate[count] * of_mass)); // none comes out after all
+        line[count] = (slope){{begin, to}, {from, from + rate[count] * of_mass * (to - begin)}, ""};
+        (void)snprintf(line[count].label, LABEL, count ? "Beverloo: %.3g kg/s" : "steady: %.3g kg/s", rate[count]);
+    }
+    return count;
+}
 
 // clang-format off
 static const time_row rows[] = {
     {{"energy-time", "kinetic and elastic energy and losses over time, without a loading stage", SCREE_USUAL},
-     "Energy", "energy (@J)", {
+     "Energy", "energy (@J)", NULL, {
         {"kinetic", "kinetic"}, {"elastic_normal", "elastic, normal"}, {"elastic_tangential", "elastic, tangential"},
         {"work_gravity", "work of gravity"}, {"dissipated_friction", "lost to friction"},
         {"dissipated_damping", "lost to damping"}}},
     {{"wall-forces", "forces on the walls of the case over time, without a loading stage", SCREE_USUAL},
-     "Forces on walls", "force (@N)", {
+     "Forces on walls", "force (@N)", NULL, {
         {"*_force_x", ", x"}, {"*_force_y", ", y"}, {"*_force_z", ", z"}}},
     {{"coordination-time", "contacts per particle over time, without a loading stage", SCREE_ON_REQUEST},
-     "Coordination", "contacts per particle (1)", {
+     "Coordination", "contacts per particle (1)", NULL, {
         {"coordination", "all particles"}, {"coordination_without_rattlers", "without rattlers"}}},
-    {{"outflow", "particles that have come out over time", SCREE_USUAL},
-     "Outflow", "particles (1)", {{"outflow", "all outlets"}}},
+    {{"outflow", "particles that have come out over time, with the steady rate and Beverloo's", SCREE_USUAL},
+     "Outflow", "particles (1)", rates_of_outflow, {{"outflow", "all outlets"}}},
     {{"surface-angle", "angle of the free surface over time", SCREE_USUAL},
-     "Angle of the free surface", "angle (degrees)", {{"surface_angle", "by a fit"}}},
+     "Angle of the free surface", "angle (degrees)", NULL, {{"surface_angle", "by a fit"}}},
 };
 // clang-format on
 
@@ -96,6 +134,17 @@ static scree_status has_time(const scree_plot_run *run, const scree_figure_job *
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no column 'time'", SCREE_FILE_SERIES);
 }
 
+/// Puts what stands beside the curves behind them; `slope` has its values. Returns how many lines there are.
+static size_t add_beside(const scree_plot_run *run, const time_row *row, slope *beside, scree_chart_line *line,
+                         size_t lines)
+{
+    const size_t count = row->beside ? row->beside(run, beside) : 0;
+    for (size_t k = 0; k < count; k++)
+        line[lines + k] = (scree_chart_line){
+            .x = beside[k].x, .y = beside[k].y, .count = 2, .label = beside[k].label, .dashed = k > 0};
+    return lines + count;
+}
+
 static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     const time_row *row = (const time_row *)job->figure;
@@ -103,22 +152,24 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     const size_t count = series->row_count;
     size_t column[CURVES];
     char label[CURVES][LABEL], axis[128];
-    scree_chart_line line[CURVES];
+    scree_chart_line line[CURVES + BESIDE];
+    slope beside[BESIDE];
     double *value, largest = 0;
     const size_t lines = find_columns(series, row, column, label);
     scree_status status = scree_allocate(&value, lines * count, sizeof *value, error);
     if (status) return status;
     for (size_t k = 0; k < lines; k++) largest = fmax(largest, scree_plot_largest(series->value[column[k]], count));
     const double scale = scree_plot_label(axis, sizeof axis, row->y_label, largest);
+    const size_t all = add_beside(run, row, beside, line, lines);
     for (size_t k = 0; k < lines; k++) {
         for (size_t i = 0; i < count; i++) value[k * count + i] = scale * series->value[column[k]][i];
         line[k] = (scree_chart_line){.x = scree_series_get(series, "time"),
                                      .y = value + k * count,
                                      .count = count,
-                                     .label = lines > 1 ? label[k] : NULL};
+                                     .label = all > 1 ? label[k] : NULL};
     }
     const scree_chart chart = {
-        .title = row->title, .x_label = "time (s)", .y_label = axis, .line = line, .line_count = lines};
+        .title = row->title, .x_label = "time (s)", .y_label = axis, .line = line, .line_count = all};
     status = scree_chart_draw(job->path, &chart, error);
     scree_release(&value);
     return status;

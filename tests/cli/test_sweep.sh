@@ -45,6 +45,8 @@ expect 2 '^biaxal-boundaries: .*\(accepted: biaxial-boundaries\)$' "$scree" swee
 expect 2 '^hopper: this is a case, not a sweep: ' "$scree" sweep hopper
 "$scree" new hopper >a-case.yaml
 expect 2 '^a-case.yaml: this is a case, not a sweep: ' "$scree" sweep a-case.yaml
+grep -v '^scree:' a-case.yaml >bare-case.yaml
+expect 2 '^bare-case.yaml: this is a case, not a sweep: ' "$scree" sweep bare-case.yaml
 
 # --- a whole sweep, then nothing left to do
 expect 0 'means in s/table.csv' "$scree" sweep tiny.yaml -o s --jobs 2

@@ -44,6 +44,15 @@ awk -v e="$("$scree" get find void_ratio)" 'BEGIN { exit !(e > 0.2058 && e < 0.2
 same "$("$scree" get own particles)" "$(($(wc -l <packing.csv) - 1))" "grains of the table"
 awk -v r="$("$scree" get own peak_stress_ratio)" 'BEGIN { exit !(r > 1.2 && r < 3) }' || complain "peak of own grains"
 awk -v r="$("$scree" get hopper beverloo_ratio)" 'BEGIN { exit !(r > 0.7 && r < 1.7) }' || complain "outflow over Beverloo"
+# the slopes beside the outflow are the rate and Beverloo's
+awk -F, -v r="$("$scree" get hopper beverloo_ratio)" 'NR == 2 { for (k = 3; k <= 6; k++) from[k] = $k }
+    NR == 3 { d = ($4 - from[4]) / ($3 - from[3]) / (($6 - from[6]) / ($5 - from[5])) / r - 1 } END { exit !(d * d < 1e-10) }' \
+    hopper/figures/outflow.csv || complain "Beverloo beside the outflow: $(head -n 3 hopper/figures/outflow.csv)"
+# a shear test shows mu and its steady mean, and no ratio of axial to lateral stress
+[ -e shear/figures/stress-ratio.svg ] && complain "a shear test has a chart of the stress ratio"
+awk -F, -v m="$("$scree" get shear mu)" -v e="$("$scree" get shear mu_error)" -v f="$("$scree" get shear mu_from)" \
+    'NR == 2 { a = $3 / 100 - f; b = $4 - m; c = e + 0 > 0 ? $6 - m - e : NF - 4 } END { exit !(NR > 2 && a * a + b * b + c * c < 1e-14) }' \
+    shear/figures/shear-ratio.csv || complain "mean of mu: $(head -n 2 shear/figures/shear-ratio.csv)"
 awk -v a="$("$scree" get drum surface_angle)" 'BEGIN { exit !(a > 15 && a < 40) }' || complain "angle of the drum"
 same "$(grep -cE '^\| mu-at-.*(agrees|differs|undecided)' mu.md)" 5 "verdicts on mu(I)"
 # pandas and numpy are not among the packages that Scree needs

@@ -48,6 +48,10 @@ same "$(complete_line scree help --com)" --completion
 touch some.yaml other.txt
 same "$(complete_line scree check s)" some.yaml
 same "$(complete_line scree check ot)" ''
+same "$(complete_line scree run biaxial --set materials.0.rest)" materials.0.restitution=
+same "$(complete_line scree check biaxial --set stages.compress.rat)" stages.compress.rate=
+same "$(complete_line scree check hopper --set walls.floor.poi)" walls.floor.point=
+same "$(complete_line scree check biaxial --set particles.radius_)" 'particles.radius_min= particles.radius_max='
 
 # --- list, new, check
 expect 0 '^biaxial +[A-Z]' "$scree" list

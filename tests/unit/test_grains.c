@@ -120,6 +120,7 @@ static void what_is_wrong_is_shown(void **unused)
         const char *message;
     } wrong[] = {
         {"x, y, radios\n1, 2, 3\n", 1, 7, "did you mean 'radius'"},
+        {"x [mm], y [mm], radios [mm]\n1, 2, 3\n", 1, 17, "'radios'; did you mean 'radius'"},
         {"x, y, radius\n1, 2, 3\n1, nan, 3\n", 3, 4, "'nan' is not a finite number"},
         {"x, y, radius\n1, 2\n", 2, 1, "this row has 2 values; 3 columns are named"},
         {"x, radius\n1, 2\n", 2, 1, "the column y is missing"},

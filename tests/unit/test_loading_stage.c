@@ -51,6 +51,22 @@ static size_t chart_rows(const char *name, double *last)
     return rows;
 }
 
+/// The peak of the summary is marked on the chart of its curve; nine digits, percent.
+static void expect_peak_marked(scree_peak peak)
+{
+    char path[128], line[256];
+    double strain = NAN, value = NAN;
+    (void)snprintf(path, sizeof path, "%s/figures/stress-ratio.csv", scratch);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_non_null(strstr(line, ", mean over 1 %"));
+    assert_non_null(strstr(line, "with friction at plates"));
+    assert_int_equal(fscanf(file, "%*[^,],%*[^,],%*[^,],%lf,%lf", &strain, &value), 2);
+    fclose(file);
+    assert_true(fabs(strain - 100 * peak.strain) < 1e-7 && fabs(value - peak.value) < 1e-7);
+}
+
 static void expect_bands_of_one_stage_each(void)
 {
     scree_series bands = {0};
@@ -90,6 +106,7 @@ static void all_results_are_of_one_stage(void **unused)
     assert_int_equal(chart_rows("stress-ratio", &last), rows.last - rows.first);
     // Percent, of nine digits.
     assert_true(fabs(last - 100 * strain[rows.last - 1]) < 1e-7);
+    expect_peak_marked(peak);
     expect_bands_of_one_stage_each();
     scree_series_destroy(&series);
     scree_case_free(c);
