@@ -419,6 +419,19 @@ static double energy(const scree_context *c)
     return scree_integer_sum_total(&sum);
 }
 
+/// Largest way [m] by which a surface has moved out; the state's bound of it may be above.
+static double largest_way(const scree_context *c)
+{
+    const int d = c->state->dimension;
+    double stretch[6], largest = 0;
+    for (size_t row = 0; row < c->state->count && c->state->stretch; row++) {
+        scree_tensor_get(d, scree_stretch_row(c->state, row), stretch);
+        largest = fmax(largest, scree_tensor_largest(d, stretch));
+    }
+    scree_comm_maximum(c->state, &largest, 1);
+    return largest;
+}
+
 static const scree_result columns[] = {
     {"energy_particles", "J", "elastic energy of the strains of the particles"},
     {"energy_lag", "J", "taken out of the motion since strains follow the forces a step later"},
@@ -431,7 +444,7 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
     (void)index, (void)error;
     value[0] = energy(c);
     value[1] = all->given - value[0];
-    value[2] = all->largest_reach / c->model->radius_max;
+    value[2] = largest_way(c) / c->model->radius_max;
     return SCREE_OK;
 }
 

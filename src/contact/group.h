@@ -98,20 +98,38 @@ SCREE_INLINE lanes load_reach(int dimension, const contact_job *job, const group
     return load_stretch_piece(dimension, job, g, 0).c3;
 }
 
-SCREE_INLINE void load_tensor(int dimension, const contact_job *job, const group *g, int number, lanes tensor[6])
+/// Pieces 2 `number` and the one behind it: of eight lanes a whole row of the cache at once.
+SCREE_INLINE void load_stretch_pieces(int dimension, const contact_job *job, const group *g, int number,
+                                      columns piece[2])
 {
-    const columns c = load_stretch_piece(dimension, job, g, number);
+#if SCREE_LANES == 8
+    const size_t times = dimension == 3 ? 4 : 2;
+    const char *from = (const char *)job->stretch + 64 * number;
+    row8 row[SCREE_LANES];
+    LANE_LOOP row[k] = *(const row8 *)(const void *)(from + times * g->first[k]) +
+                       *(const row8 *)(const void *)(from + times * g->second[k]);
+    columns_of_long_rows(row, piece);
+#else
+    for (int k = 0; k < 2; k++) piece[k] = load_stretch_piece(dimension, job, g, 2 * number + k);
+#endif
+}
+
+SCREE_INLINE void put_columns(lanes tensor[3], columns c)
+{
     tensor[0] = c.c0, tensor[1] = c.c1, tensor[2] = c.c2;
-    if (dimension == 2) return;
-    const columns more = load_stretch_piece(dimension, job, g, number + 1);
-    tensor[3] = more.c0, tensor[4] = more.c1, tensor[5] = more.c2;
 }
 
 SCREE_INLINE stretch load_stretches(int dimension, const contact_job *job, const group *g)
 {
     stretch both;
-    load_tensor(dimension, job, g, 0, both.now);
-    load_tensor(dimension, job, g, dimension == 3 ? 2 : 1, both.change);
+    columns piece[4];
+    for (int k = 0; k < dimension - 1; k++) load_stretch_pieces(dimension, job, g, k, piece + 2 * k);
+    const columns *change = piece + dimension - 1;
+    put_columns(both.now, piece[0]);
+    put_columns(both.change, change[0]);
+    if (dimension == 2) return both;
+    put_columns(both.now + 3, piece[1]);
+    put_columns(both.change + 3, change[1]);
     return both;
 }
 

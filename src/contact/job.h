@@ -85,7 +85,7 @@ static inline void contact_job_enter(contact_job *job, const scree_pair_section 
     job->near = section->touching_end;
     job->near_touched = near_touched;
     job->variant.geometry = section->geometry;
-    job->variant.many_materials = section->persistent || model->material_count + model->added_materials > 1;
+    job->variant.many_materials = model->material_count + model->added_materials > 1;
     job->pairs = section->persistent ? model->persistent.pairs : model->pairs;
     contact_job_use(job, section->persistent ? &model->persistent.law : &model->laws[section->law]);
 }

@@ -93,7 +93,8 @@ typedef struct scree_linear_material {
 } scree_linear_material;
 
 #define linear_KERNELS(row)                                                                                            \
-    row(linear, 0, one) row(linear, 0, many) row(linear, 1, many) row(linear, 2, many) row(linear, 3, many)
+    row(linear, 0, one) row(linear, 0, many) row(linear, 1, many) row(linear, 2, one) row(linear, 2, many)             \
+        row(linear, 3, one) row(linear, 3, many)
 
 #define LINEAR_TRAITS(...)                                                                                             \
     {                                                                                                                  \

@@ -190,7 +190,8 @@ enum { MOST_OPTIONS = 6 };
         static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
         const variant *v = &job->variant;                                                                              \
         contact_kernel *const *kernel = kernels[v->law][v->option];                                                    \
-        (v->many_materials || v->moments || !kernel[OF_one] ? kernel[OF_many] : kernel[OF_one])(job);                  \
+        const bool many = v->many_materials || (v->moments && !law_deforms(*v)) || !kernel[OF_one];                    \
+        kernel[many ? OF_many : OF_one](job);                                                                          \
     }
 
 #endif

@@ -88,6 +88,36 @@ SCREE_INLINE void columns_to_rows(columns c, row4 row[8])
 
 #endif
 
+#if SCREE_LANES == 8
+
+typedef double row8 __attribute__((vector_size(64), aligned(8), may_alias));
+
+/// The first four and the last four columns of rows of eight.
+SCREE_INLINE void columns_of_long_rows(const row8 row[8], columns half[2])
+{
+    lanes even[4], odd[4], first[4], second[4];
+    for (int k = 0; k < 4; k++) {
+        even[k] = SHUFFLE((lanes)row[2 * k], (lanes)row[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        odd[k] = SHUFFLE((lanes)row[2 * k], (lanes)row[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int k = 0; k < 2; k++) {
+        first[k] = SHUFFLE(even[2 * k], even[2 * k + 1], 0, 1, 4, 5, 8, 9, 12, 13);
+        first[k + 2] = SHUFFLE(odd[2 * k], odd[2 * k + 1], 0, 1, 4, 5, 8, 9, 12, 13);
+        second[k] = SHUFFLE(even[2 * k], even[2 * k + 1], 2, 3, 6, 7, 10, 11, 14, 15);
+        second[k + 2] = SHUFFLE(odd[2 * k], odd[2 * k + 1], 2, 3, 6, 7, 10, 11, 14, 15);
+    }
+    half[0] = (columns){SHUFFLE(first[0], first[1], 0, 1, 4, 5, 8, 9, 12, 13),
+                        SHUFFLE(first[2], first[3], 0, 1, 4, 5, 8, 9, 12, 13),
+                        SHUFFLE(second[0], second[1], 0, 1, 4, 5, 8, 9, 12, 13),
+                        SHUFFLE(second[2], second[3], 0, 1, 4, 5, 8, 9, 12, 13)};
+    half[1] = (columns){SHUFFLE(first[0], first[1], 2, 3, 6, 7, 10, 11, 14, 15),
+                        SHUFFLE(first[2], first[3], 2, 3, 6, 7, 10, 11, 14, 15),
+                        SHUFFLE(second[0], second[1], 2, 3, 6, 7, 10, 11, 14, 15),
+                        SHUFFLE(second[2], second[3], 2, 3, 6, 7, 10, 11, 14, 15)};
+}
+
+#endif
+
 #define LANE_LOOP _Pragma("GCC unroll 8") for (int k = 0; k < SCREE_LANES; k++)
 
 SCREE_INLINE columns columns_load(const double *const position[SCREE_LANES])

@@ -34,7 +34,7 @@ static void add_share(void *argument, int index, int count)
     stretch_task *task = argument;
     const stretch_job job = job_of_share(task, index, count);
     scree_integer_sum sum = task->sum;
-    for (size_t row = job.begin; row < job.end; row++) scree_integer_sum_add(&sum, job.term[row]);
+    scree_integer_sum_add_all(&sum, job.term + job.begin, job.end - job.begin);
     task->part[index] = sum;
 }
 

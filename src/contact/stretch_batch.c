@@ -22,12 +22,17 @@ SCREE_INLINE lanes tensor_product(int d, const lanes a[6], const lanes b[6])
     return diagonal + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-/// 64-bit integers as doubles, rounded once: halves in the low bits of 2^52 and 2^84.
+/// 64-bit integers as doubles, rounded once: by the processor where it can, else halves in the low bits of 2^52 and
+/// 2^84.
 SCREE_INLINE lanes lanes_of_integers(lanes_bits a)
 {
+#if SCREE_LANES == 8 && defined(__AVX512DQ__)
+    return (lanes)_mm512_cvtepi64_pd((__m512i)a);
+#else
     const uint64_t low = UINT64_C(0x4330000000000000), high = UINT64_C(0x4530000080000000);
     lanes upper = lanes_as_double((a >> 32) ^ high);
     return (upper - (0x1p84 + 0x1p63 + 0x1p52)) + lanes_as_double((a & UINT64_C(0xffffffff)) | low);
+#endif
 }
 
 /// Bodies of a group, one a lane.
@@ -119,14 +124,20 @@ SCREE_INLINE void load_compliance(int d, const stretch_job *job, const bodies_of
     *trace *= inverse;
 }
 
-/// Largest eigenvalue of a tensor, or more, and at least zero: the mean of its diagonal and what it deviates by.
+/// Largest eigenvalue of a tensor, or more, and at least zero: the mean of its diagonal and what it deviates by; in the
+/// plane, where it is exact, with a bound of that root, at most 8.3 % above it, since roots take a quarter of the pass.
 SCREE_INLINE lanes largest_eigenvalue(int d, const lanes tensor[6])
 {
-    lanes part[6], sum = tensor[0] + tensor[1];
-    if (d == 3) sum += tensor[2];
-    const lanes mean = sum * (1.0 / d);
-    for (int k = 0; k < tensor_size(d); k++) part[k] = k < d ? tensor[k] - mean : tensor[k];
-    return lanes_at_least(mean + lanes_root(tensor_product(d, part, part) * (1 - 1.0 / d)), lanes_all(0));
+    if (d == 2) {
+        const lanes half = lanes_abs(0.5 * (tensor[0] - tensor[1])), shear = lanes_abs(tensor[2]);
+        const lanes most = lanes_at_least(half, shear), least = lanes_at_most(half, shear);
+        const lanes root = most + (M_SQRT2 - 1) * least; // at least sqrt(half^2 + shear^2), which is convex
+        return lanes_at_least(0.5 * (tensor[0] + tensor[1]) + root, lanes_all(0));
+    }
+    lanes part[6];
+    const lanes mean = (tensor[0] + tensor[1] + tensor[2]) * (1.0 / 3);
+    for (int k = 0; k < 6; k++) part[k] = k < 3 ? tensor[k] - mean : tensor[k];
+    return lanes_at_least(mean + lanes_root(tensor_product(3, part, part) * (2.0 / 3)), lanes_all(0));
 }
 
 /// Bodies from `row` on; whole: as many as there are lanes.

@@ -4,6 +4,7 @@
 #include "run_fixture.h"
 
 #include "contact/deformation.h"
+#include "contact/stretch.h"
 #include "measure/removal.h"
 #include "state/deformation.h"
 #include "state/persistent.h"
@@ -411,6 +412,34 @@ static void surfaces_use_up_the_list(void **unused)
     }
 }
 
+/// No surface has moved out by more than the row of its body says, and none by much less.
+static void rows_know_how_far_surfaces_reach(void **unused)
+{
+    const char *const override = "contact.deformation=explicit";
+    (void)unused;
+    for (size_t k = 0; k < sizeof gases / sizeof *gases; k++) {
+        scree_case *c = case_read(gases[k], &override, 1);
+        scree_simulation s;
+        double strained = 0;
+        simulation_open(c, 1, &s);
+        simulation_load(&s);
+        for (int step = 0; step < 300; step++) simulation_step(&s);
+        for (size_t row = 0; row < s.state.count; row++) {
+            double stretch[6], negative[6];
+            const double *own = scree_stretch_row(&s.state, row);
+            scree_tensor_get(s.state.dimension, own, stretch);
+            for (int i = 0; i < 6; i++) negative[i] = -stretch[i];
+            const double most = scree_tensor_largest(s.state.dimension, stretch);
+            const double spread = most + scree_tensor_largest(s.state.dimension, negative); // twice the deviator
+            assert_true(own[3] >= most - 1e-15 * spread && own[3] <= fmax(most, 0) + 0.042 * spread);
+            strained = fmax(strained, spread);
+        }
+        assert_true(strained > 0);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
 #define GLUED                                                                                                          \
     PRESSED "  - {stage: bond}\n"                                                                                      \
             "  - {stage: relax, name: rest, boundary: none, duration: 0.01 ms}\n"
@@ -504,6 +533,7 @@ int main(void)
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test_setup_teardown(restarts_change_nothing, make_scratch, remove_scratch),
         cmocka_unit_test(surfaces_use_up_the_list),
+        cmocka_unit_test(rows_know_how_far_surfaces_reach),
         cmocka_unit_test(bonds_of_strained_bodies_are_at_rest),
         cmocka_unit_test(bodies_are_taken_out),
         cmocka_unit_test(what_cannot_deform_is_refused),
