@@ -294,13 +294,16 @@ static void check_overlaps(const judged *j)
         scree_reader_fail(j->reader, j->g->count);
         return;
     }
-    if (found.count > 0)
-        scree_rule_refuse(
-            j->reader, "stages.0.file", NULL,
-            "%zu pairs overlap by more than guard.overlap allows (%.3g of the smaller radius), grains %zu "
-            "and %zu (from 0) most, by %.6g m: let them come apart by a smaller radius_factor, or by a "
-            "larger guard.overlap and a first stage relax with a load of background damping",
-            found.count, j->config->guard.overlap, found.first, found.second, found.overlap);
+    if (found.count == 0) return;
+    const double *radius = j->g->column[SCREE_GRAIN_RADIUS];
+    scree_rule_refuse(
+        j->reader, "stages.0.file", NULL,
+        "%zu pair%s by more than guard.overlap allows (%.3g of the smaller radius), most of all grains %zu and %zu "
+        "(from "
+        "0), by %.3g of it: let them come apart by a smaller radius_factor, or by a larger guard.overlap and a first "
+        "stage relax with a load of background damping",
+        found.count, found.count > 1 ? "s overlap" : " overlaps", j->config->guard.overlap, found.first, found.second,
+        found.overlap / fmin(radius[found.first], radius[found.second]));
 }
 
 static void refuse_file(scree_reader *reader, const scree_error *why)

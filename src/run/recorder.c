@@ -230,6 +230,16 @@ static bool checkpoint_due(const scree_recorder *recorder, const scree_simulatio
            now - recorder->last_checkpoint > output->checkpoint_interval;
 }
 
+/// By its kind, and by the name that the case gives it, if any.
+static void log_end(scree_recorder *recorder, const scree_simulation *s)
+{
+    const char *kind = s->stage->name, *name = scree_stage_config(s)->name;
+    const bool named = strncmp(name, kind, strlen(kind)) != 0;
+    scree_log_write(&recorder->log, SCREE_LOG_INFO, "stage %s%s%s%s ended at step %llu, time %.6g s: %s", kind,
+                    named ? " (" : "", named ? name : "", named ? ")" : "", (unsigned long long)s->state.step,
+                    scree_state_time(&s->state), s->reason);
+}
+
 scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_status status = SCREE_OK;
@@ -242,9 +252,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
         scree_quasistatic_follow(&recorder->watch, s, &recorder->log);
     }
     if (snapshot_due(s) && (status = write_snapshot(recorder, s, true, error))) return status;
-    if (s->stage_ended)
-        scree_log_write(&recorder->log, SCREE_LOG_INFO, "stage %s ended at step %llu, time %.6g s: %s", s->stage->name,
-                        (unsigned long long)s->state.step, scree_state_time(&s->state), s->reason);
+    if (s->stage_ended) log_end(recorder, s);
     if (s->state.evaluations % CLOCK_STEPS != 0 && !s->stage_ended) return SCREE_OK;
     double now = scree_clock();
     // Clocks differ: that of the process which writes counts.

@@ -103,7 +103,9 @@ static const scree_result columns[] = {
     [MEAN] = {"p", "Pa", "mean of the normal stresses of these columns, in 2D of two"},
     [DEVIATOR] = {"q", "Pa", "axial stress less lateral one: of the last axis less the mean of the others"},
     [MU] = {"mu", "1", "stress_shear over the normal stress of the last axis"},
-    [VOID_RATIO] = {"void_ratio", "1", "volume of the voids over that of the particles, by solid_fraction"},
+    [VOID_RATIO] = {"void_ratio", "1",
+                    "volume of the voids over that of the particles, by solid_fraction: between plates of the outline, "
+                    "whose gaps at the plates may change where `volume` does not"},
     [FABRIC_TRACE] = {"fabric_trace", "1", "trace of the fabric tensor: volume fraction times contacts"},
     [FABRIC_DEVIATOR] = {"fabric_deviator", "1", "its largest less its least principal value, over its trace"},
     [FABRIC_DIRECTION] = {"fabric_direction", "rad",

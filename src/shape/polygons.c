@@ -213,11 +213,11 @@ static void compact(scree_state *state, double (*kept)[2])
     own *p = scree_polygons_of(state);
     size_t count = 0;
     for (size_t row = 0; row < state->count; row++) {
-        memcpy(kept + count, p->corner + p->of[row].first, p->of[row].count * sizeof *kept);
+        if (p->of[row].count > 0) memcpy(kept + count, p->corner + p->of[row].first, p->of[row].count * sizeof *kept);
         p->of[row].first = (uint32_t)count;
         count += p->of[row].count;
     }
-    memcpy(p->corner, kept, count * sizeof *kept);
+    if (count > 0) memcpy(p->corner, kept, count * sizeof *kept);
     p->count = count;
 }
 

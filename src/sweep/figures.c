@@ -58,13 +58,13 @@ static const char *unit_of(const char *name)
     return row ? row->unit : NULL;
 }
 
-/// Labels are plain text: what gnuplot's enhanced text would interpret is escaped.
+/// Labels are plain text: words of keys are apart, and what gnuplot's enhanced text would interpret is escaped.
 static void plain(char label[LABEL], const char *text)
 {
     size_t used = 0;
     for (const char *c = text; *c && used + 3 < LABEL; c++) {
-        if (strchr("^_{}@&~\\", *c)) label[used++] = '\\';
-        label[used++] = *c;
+        if (strchr("^{}@&~\\", *c)) label[used++] = '\\';
+        label[used++] = *c == '_' ? ' ' : *c;
     }
     label[used] = 0;
 }

@@ -298,7 +298,7 @@ static void cases_are_checked(void **unused)
     expect_refused(fine, space, 2, "no column z");
     expect_refused(fine, checksum, 1, "the file has changed");
     expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n4,1,0.5\n9,2,0.75\n", NULL, 0, "1 of 3 grains lie outside");
-    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n2,1,0.5\n6,2,0.75\n", NULL, 0, "grains 0 and 1 (from 0) most");
+    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n2,1,0.5\n6,2,0.75\n", NULL, 0, "most of all grains 0 and 1 (from 0), by 2 of it");
     expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n4,x,0.5\n", NULL, 0, "'x' is not a finite number");
     expect_refused("x [mm],y [mm],z [mm],radius [mm]\n1.5,1,1,1\n4,1,2,0.5\n6,2,2,0.75\n", NULL, 0,
                    "they lie in space");
