@@ -50,7 +50,9 @@ SCREE_INLINE linear_strained linear_strain(variant v, const law_settings *settin
     linear_strained s = {.loose = settings->number[SCREE_LAW_LOOSE],
                          .corrected = settings->number[SCREE_LAW_CORRECTED]};
     s.slip = vector_plus(count, m->slip, vector_times(count, m->spreading, lanes_all(s.corrected)));
-    s.dashpot_slip = s.slip; // integrators that know the motion at n refuse bodies that deform
+    // Dashpots feel the bodies alone, as that along the normal does: strains lag, and a lagged rate over the step makes
+    // the iteration of forces grow the faster the smaller the step.
+    s.dashpot_slip = m->dashpot_slip;
     s.rate = m->approach + (1 - s.loose) * m->expanding;
     return s;
 }
