@@ -2,9 +2,11 @@
 #include "cli/specimen_argument.h"
 #include "cli/terminal.h"
 
+#include <math.h>
+
 static void print_row(const char *name, double value, const char *unit, const char *meaning)
 {
-    printf("%-24s %-12.6g %-3s %s\n", name, value, unit, meaning);
+    printf("%-24s %-12.6g %-3s %s\n", name, value + 0.0, unit, meaning);
 }
 
 static void print_moduli(const char *before, const scree_isotropic_moduli *m, const char *meaning)
@@ -43,6 +45,22 @@ static void print_tensors(const scree_moduli *m)
     }
 }
 
+/// Of a specimen between plates; nothing of one that is periodic.
+static void print_uniaxial(const scree_moduli *m)
+{
+    char name[64];
+    for (int i = 0; i < m->dimension; i++) {
+        if (isnan(m->uniaxial_young[i])) continue;
+        (void)snprintf(name, sizeof name, "uniaxial_young_modulus_%c", "xyz"[i]);
+        print_row(name, m->uniaxial_young[i], "Pa", i == 0 ? "between smooth plates across this axis, sides free" : "");
+        for (int j = 0; j < m->dimension; j++) {
+            if (i == j) continue;
+            (void)snprintf(name, sizeof name, "uniaxial_poisson_ratio_%c%c", "xyz"[i], "xyz"[j]);
+            print_row(name, m->uniaxial_poisson[3 * i + j], "1", "");
+        }
+    }
+}
+
 static void print_all(const scree_moduli *m)
 {
     printf("%-24s %zu\n%-24s %zu\n", "bodies", m->bodies, "contacts", m->contacts);
@@ -52,6 +70,7 @@ static void print_all(const scree_moduli *m)
     print_moduli("voigt_", &m->voigt, "if rigid particles followed the mean strain");
     print_moduli("estimate_", &m->estimate, "the same from number of contacts and mean square radius");
     print_tensors(m);
+    print_uniaxial(m);
 }
 
 scree_status scree_verb_moduli(const scree_command *command)

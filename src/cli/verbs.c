@@ -176,7 +176,10 @@ static const scree_verb case_verbs[] = {
             "find their places, and prints the elasticity tensor: its components C_ijkl, the "
             "nearest isotropic moduli, how far from isotropic and from symmetric it is, the fabric of the contacts, "
             "and for comparison the moduli if all particles followed the mean strain (Voigt). Nothing is run but what "
-            "leads to the specimen. Contacts stay as they are: none opens, closes or slides.\n\n"
+            "leads to the specimen. Contacts stay as they are: none opens, closes or slides. Of a box also E and nu of "
+            "a "
+            "uniaxial test along each axis, between smooth plates, the sides free, over the area between the outermost "
+            "surfaces.\n\n"
             "In 2D the moduli are those of the plane: K of areas, K = E / (2 (1 - nu)). Lines are name, value, unit, "
             "meaning.",
         .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,

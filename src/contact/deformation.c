@@ -122,6 +122,8 @@ static void judge_material(scree_reader *reader, const scree_config *whole, int6
     const scree_config_material *material = &whole->materials[index];
     char path[SCREE_PATH_BYTES];
     (void)snprintf(path, sizeof path, "materials.%lld.poisson_ratio", (long long)index);
+    // What is not even within its own limits has been refused at its place.
+    if (!(material->young_modulus > 0) || !(material->poisson_ratio > -1 && material->poisson_ratio <= 0.5)) return;
     if (!scree_elasticity_is_stable(material->young_modulus, material->poisson_ratio))
         scree_rule_refuse(reader, path, "above -1 and below 0.5",
                           "a particle that deforms needs a Poisson's ratio between -1 and 0.5");

@@ -19,6 +19,23 @@ static void set_stiffness(int dimension, const double *matrix, double *stiffness
                 matrix[i * n + j] * (i < dimension ? 1 : M_SQRT1_2) * (j < dimension ? 1 : M_SQRT1_2);
 }
 
+/// Young's modulus along each axis and Poisson's ratios, of a sample that ends somewhere.
+static scree_status press(const scree_simulation *s, const scree_specimen *specimen, scree_moduli *out,
+                          scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (int k = 0; k < 3; k++) out->uniaxial_young[k] = NAN;
+    for (int k = 0; k < 9; k++) out->uniaxial_poisson[k] = NAN;
+    for (int axis = 0; axis < specimen->dimension && !status; axis++) {
+        scree_uniaxial found;
+        status = scree_specimen_press_piece(&s->state, specimen, axis, &found, error);
+        out->uniaxial_young[axis] = found.young;
+        out->iterations += found.iterations;
+        for (int k = 0; k < 3; k++) out->uniaxial_poisson[3 * axis + k] = found.poisson[k];
+    }
+    return status;
+}
+
 scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_elasticity *elasticity,
                                      scree_moduli *out, scree_error *error)
 {
@@ -27,12 +44,13 @@ scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_e
     *out = (scree_moduli){.dimension = s->model.dimension};
     scree_status status = library_specimen(s, elasticity, &specimen, error);
     if (status) return status;
-    status = scree_specimen_take_piece(&s->state, &specimen, error);
+    status = press(s, &specimen, out, error);
+    if (!status) status = scree_specimen_take_piece(&s->state, &specimen, error);
     if (!status) status = scree_specimen_find_moduli(&specimen, &found, error);
     if (!status) {
         out->bodies = specimen.body_count;
         out->contacts = specimen.contact_count;
-        out->iterations = found.iterations;
+        out->iterations += found.iterations;
         out->isotropic = public_moduli(found.isotropic);
         out->voigt = public_moduli(found.voigt);
         out->estimate = public_moduli(scree_specimen_estimate(&specimen));

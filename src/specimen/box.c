@@ -15,17 +15,9 @@
 /// Least share of a face that is covered by its bodies, each of them a square of one mean diameter.
 #define COVERED 0.5
 
-typedef struct box {
-    int dimension;
-    double face[2][3];  ///< m
-    double plane[2][3]; ///< m, mean of the centres of its bodies
-    size_t count[2][3];
-    double radius; ///< m, mean
-} box;
-
-static void find_faces(const scree_specimen *s, const scree_box_faces *faces, box *b)
+static void find_faces(const scree_specimen *s, const scree_box_faces *faces, scree_box *b)
 {
-    *b = (box){.dimension = s->dimension};
+    *b = (scree_box){.dimension = s->dimension};
     for (int k = 0; k < s->dimension; k++) {
         b->face[0][k] = INFINITY;
         b->face[1][k] = -INFINITY;
@@ -42,20 +34,19 @@ static void find_faces(const scree_specimen *s, const scree_box_faces *faces, bo
             if (!isnan(faces->end[end][k])) b->face[end][k] = faces->end[end][k];
 }
 
-/// Whether a body is of face `end` across axis k.
-static bool is_of(const scree_specimen *s, const box *b, size_t body, int end, int k)
+bool scree_box_has(const scree_specimen *s, const scree_box *b, size_t body, int end, int k)
 {
     const double distance = fabs(s->position[body][k] - b->face[end][k]) - s->radius[body];
     return distance < NEAR * b->radius;
 }
 
-static void find_planes(const scree_specimen *s, box *b)
+static void find_planes(const scree_specimen *s, scree_box *b)
 {
     for (int end = 0; end < 2; end++)
         for (int k = 0; k < s->dimension; k++) {
             double sum = 0;
             for (size_t body = 0; body < s->body_count; body++) {
-                if (!is_of(s, b, body, end, k)) continue;
+                if (!scree_box_has(s, b, body, end, k)) continue;
                 sum += s->position[body][k];
                 b->count[end][k]++;
             }
@@ -63,7 +54,7 @@ static void find_planes(const scree_specimen *s, box *b)
         }
 }
 
-static scree_status check_faces(const box *b, scree_error *error)
+static scree_status check_faces(const scree_box *b, scree_error *error)
 {
     for (int end = 0; end < 2; end++)
         for (int k = 0; k < b->dimension; k++) {
@@ -80,16 +71,28 @@ static scree_status check_faces(const box *b, scree_error *error)
     return SCREE_OK;
 }
 
+scree_status scree_specimen_find_box(const scree_specimen *s, const scree_box_faces *faces, scree_box *b,
+                                     scree_error *error)
+{
+    if (s->periodic)
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "moduli are those of a sample that is periodic in all directions, or in none");
+    find_faces(s, faces, b);
+    find_planes(s, b);
+    return check_faces(b, error);
+}
+
 /// Faces that both bodies are of; with one body twice, its own.
-static int common_faces(const scree_specimen *s, const box *b, size_t body, size_t other)
+static int common_faces(const scree_specimen *s, const scree_box *b, size_t body, size_t other)
 {
     int count = 0;
     for (int end = 0; end < 2; end++)
-        for (int k = 0; k < s->dimension; k++) count += is_of(s, b, body, end, k) && is_of(s, b, other, end, k);
+        for (int k = 0; k < s->dimension; k++)
+            count += scree_box_has(s, b, body, end, k) && scree_box_has(s, b, other, end, k);
     return count;
 }
 
-static scree_status copy(const scree_specimen *s, scree_specimen *out, scree_error *error)
+scree_status scree_specimen_copy(const scree_specimen *s, scree_specimen *out, scree_error *error)
 {
     scree_status status = scree_specimen_create(s->dimension, s->body_count, s->contact_count, out, error);
     if (status) return status;
@@ -115,15 +118,10 @@ static void weaken(scree_specimen_contact *contact, double share)
 scree_status scree_specimen_cut_box(const scree_specimen *s, const scree_box_faces *faces, scree_specimen *out,
                                     scree_error *error)
 {
-    box b;
+    scree_box b;
     *out = (scree_specimen){0};
-    if (s->periodic)
-        return scree_error_set(error, SCREE_ERROR_INPUT,
-                               "moduli are those of a sample that is periodic in all directions, or in none");
-    find_faces(s, faces, &b);
-    find_planes(s, &b);
-    scree_status status = check_faces(&b, error);
-    if (!status) status = copy(s, out, error);
+    scree_status status = scree_specimen_find_box(s, faces, &b, error);
+    if (!status) status = scree_specimen_copy(s, out, error);
     if (status) return status;
     for (size_t body = 0; body < s->body_count; body++)
         if (common_faces(s, &b, body, body) > 0) out->held[body] = 1 | 2 | 4;
@@ -140,12 +138,10 @@ scree_status scree_specimen_cut_box(const scree_specimen *s, const scree_box_fac
 
 double scree_specimen_box_density(const scree_specimen *s, const scree_box_faces *faces)
 {
-    box b;
+    scree_box b;
     scree_error ignored;
     double mass = 0, extent = s->dimension == 2 ? s->volume[0] / (M_PI * s->radius[0] * s->radius[0]) : 1;
-    find_faces(s, faces, &b);
-    find_planes(s, &b);
-    if (s->periodic || check_faces(&b, &ignored)) return NAN;
+    if (scree_specimen_find_box(s, faces, &b, &ignored)) return NAN;
     for (size_t body = 0; body < s->body_count; body++) mass += ldexp(s->mass[body], -common_faces(s, &b, body, body));
     for (int k = 0; k < s->dimension; k++) extent *= b.plane[1][k] - b.plane[0][k];
     return mass / extent;

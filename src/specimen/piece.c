@@ -30,6 +30,16 @@ scree_status scree_specimen_take_piece(const scree_state *state, scree_specimen 
     return SCREE_OK;
 }
 
+scree_status scree_specimen_press_piece(const scree_state *state, const scree_specimen *specimen, int axis,
+                                        scree_uniaxial *out, scree_error *error)
+{
+    scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+    *out = (scree_uniaxial){NAN, {NAN, NAN, NAN}, 0};
+    if (specimen->periodic) return SCREE_OK;
+    find_faces(state, &faces);
+    return scree_specimen_press(specimen, &faces, axis, out, error);
+}
+
 scree_isotropic scree_specimen_estimate(const scree_specimen *s)
 {
     double square = 0, normal = 0, tangential = 0;

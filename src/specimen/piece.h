@@ -4,12 +4,18 @@
 
 #include "base/error.h"
 #include "specimen/moduli.h"
+#include "specimen/uniaxial.h"
 #include "state/state.h"
 
 /// A specimen that does not repeat itself in all directions becomes the piece within its outermost bodies (box.h), by
 /// plates where these stand. Errors: SCREE_ERROR_INPUT when it fills no box; memory.
 scree_status scree_specimen_take_piece(const scree_state *state, scree_specimen *specimen,
                                        scree_error *error) SCREE_MUST_USE;
+
+/// The specimen between two plates across `axis`, where it ends: uniaxial.h. NAN in all of *out where it repeats itself
+/// in some direction. Errors: as there.
+scree_status scree_specimen_press_piece(const scree_state *state, const scree_specimen *specimen, int axis,
+                                        scree_uniaxial *out, scree_error *error) SCREE_MUST_USE;
 
 /// Voigt's moduli from number, mean springs and mean square radius alone (M 4.15-4.18).
 scree_isotropic scree_specimen_estimate(const scree_specimen *specimen);
