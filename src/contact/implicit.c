@@ -34,6 +34,8 @@
 #include "state/periodic.h"
 #include "state/persistent.h"
 
+#include <float.h>
+
 enum { MOST_STEPS = 60, MOST_HALVINGS = 8, MOST_PRODUCTS = 1000 };
 /// Of conjugate gradients, relative to that of the outer loop.
 static const double INNER = 0.1;
@@ -412,19 +414,21 @@ static void move(solve *s, double share)
     }
 }
 
-/// What integers may leave of a stretch [m].
+/// What integers may leave of a stretch [m], and the rounding of overlaps, which are differences of radii and
+/// distances.
 static double noise_of(const solve *s)
 {
-    double softest = 0;
+    double softest = 0, largest = 0;
     for (size_t row = 0; row < s->count; row++) {
         const tensor unit = {1, 1, s->d == 3 ? 1 : 0};
         tensor z;
         yield(s, row, unit, z);
+        largest = fmax(largest, s->c->state->row[row].radius);
         softest = fmax(softest, magnitude(s, z));
         softest = fmax(softest, s->compliance[scree_body_material(s->c->state, row)].shear /
                                     scree_stretch_volume(s->d, s->c->model->thickness, s->c->state->row[row].radius));
     }
-    return NOISE * s->c->state->force_quantum * softest;
+    return fmax(NOISE * s->c->state->force_quantum * softest, DBL_EPSILON * largest);
 }
 
 static scree_status iterate(solve *s, double tolerance, scree_stretch_change *change, scree_error *error)

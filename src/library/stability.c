@@ -82,7 +82,7 @@ static scree_status find_limits(const scree_simulation *simulation, scree_specim
     if (status || !scree_specimen_is_deformable(s)) return status;
     status = deformable_limits(s, out, error);
     const double young = mean_modulus(s);
-    out->stiffness_ratio = out->normal_stiffness / young;
+    out->stiffness_ratio = scree_stiffness_ratio(s);
     out->largest_ratio = out->stiffness_ratio / out->spectral_radius;
     double softness = NAN;
     if (!status)

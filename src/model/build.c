@@ -1,7 +1,6 @@
 /// From what the user said to the constants that kernels use.
 ///
-/// The constants of two materials are the affair of the law (contact/laws.h). Everything here is O(materials^2 +
-/// stages).
+/// The constants of two materials are the affair of the law (contact/laws.h). All here is O(materials^2 + stages).
 #include "case/check.h"
 #include "model/model.h"
 
@@ -498,9 +497,9 @@ static scree_status check_cohesion(const scree_model *model, scree_error *error)
 /// Whether adhesion holds some pairs, which makes them stiffer than their load would.
 static const char *for_cohesion(const scree_model *model)
 {
-    bool sticks = false;
+    int sticks = 0;
     for (int i = 0; i < model->material_count; i++)
-        for (int j = 0; j <= i; j++) sticks = sticks || sunk(model, i, j) > 0;
+        for (int j = 0; j <= i; j++) sticks += sunk(model, i, j) > 0;
     return sticks ? " (the cohesion of this case counts in it: less surface_energy allows a larger one)" : "";
 }
 
@@ -515,19 +514,20 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     model->small_steps = steps.small;
     double ticks = (double)model->largest_step;
     model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
-    if (ticks * model->step <= model->critical_step) return SCREE_OK;
-    if (model->config->guard.stability == SCREE_STABILITY_WARNS) return SCREE_OK;
+    const bool warns = model->config->guard.stability == SCREE_STABILITY_WARNS;
+    if (warns || ticks * model->step <= model->critical_step) return SCREE_OK;
     if (model->largest_step > 1)
         return FIELD_ERROR(
             error, "integrator.step",
             "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
             "be unstable; give %.2g s, or auto, or guard.stability: warn to see",
             ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
-    scree_status status = FIELD_ERROR(
-        error, "integrator.step",
-        "a step of %.3g s is above the critical step of this case, %.3g s%s, and may be unstable; "
-        "give %.2g s, or auto, or guard.stability: warn to see",
-        model->step, model->critical_step, for_cohesion(model), two_digits_below(0.5 * model->critical_step));
+    scree_status status =
+        FIELD_ERROR(error, "integrator.step",
+                    "a step of %.3g s is above the critical step of this case, %.3g s%s, and may be unstable; "
+                    "give %.2g s, or auto%s, or guard.stability: warn to see",
+                    model->step, model->critical_step, for_cohesion(model),
+                    two_digits_below(0.5 * model->critical_step), scree_critical_step_advice(model, (char[96]){0}));
     if (error) {
         (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);
         (void)snprintf(error->accepted, sizeof error->accepted, "up to %.3g s", two_digits_below(model->critical_step));

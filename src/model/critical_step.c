@@ -56,6 +56,7 @@
 #include "base/vectors.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const double STRONG = 3;
 static const double FAST = 6; // in root-mean-square velocity components
@@ -195,8 +196,8 @@ static void stiffen(scree_contact_tangent *t)
     t->tangential_damping *= SCREE_FACE_GAIN_SQUARE;
 }
 
-/// The estimate for contacts of two materials.
-static double estimate_of(const scree_model *model, int one, int other)
+/// The estimate for contacts of two materials. dashpots: 1; 0 leaves them out.
+static double estimate_of(const scree_model *model, int one, int other, double dashpots)
 {
     const scree_pair_constants *pair = &model->pairs[one][other];
     double a = least_radius(model, one), b = least_radius(model, other);
@@ -223,14 +224,30 @@ static double estimate_of(const scree_model *model, int one, int other)
 
     scree_contact_tangent tangent = scree_contact_linearise(law, pair, effective_radius, effective_mass, force);
     if (model->largest_gain > 1) stiffen(&tangent);
+    tangent.normal_damping *= dashpots;
+    tangent.tangential_damping *= dashpots;
     return scree_critical_step_lattice(model->dimension, &tangent, fmin(mass, second),
                                        scree_integrator_get(model->scheme)->limit);
 }
 
-double scree_critical_step_estimate(const scree_model *model)
+static double estimate(const scree_model *model, double dashpots)
 {
     double least = INFINITY;
     for (int one = 0; one < model->material_count; one++)
-        for (int other = 0; other <= one; other++) least = fmin(least, estimate_of(model, one, other));
+        for (int other = 0; other <= one; other++) least = fmin(least, estimate_of(model, one, other, dashpots));
     return least;
+}
+
+double scree_critical_step_estimate(const scree_model *model)
+{
+    return estimate(model, 1);
+}
+
+const char *scree_critical_step_advice(const scree_model *model, char text[96])
+{
+    const double undamped = estimate(model, 0);
+    text[0] = 0;
+    if (undamped > 1.5 * model->critical_step)
+        (void)snprintf(text, 96, ", or less damping (%.3g s without dashpots)", undamped);
+    return text;
 }

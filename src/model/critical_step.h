@@ -18,6 +18,9 @@ double scree_critical_step_lattice(int dimension, const scree_contact_tangent *t
 /// but the step.
 double scree_critical_step_estimate(const scree_model *model);
 
+/// What else helps where a step is too large: less damping, where dashpots make the estimate much smaller. Else empty.
+const char *scree_critical_step_advice(const scree_model *model, char text[96]);
+
 /// What a case says of its sample before there is one: solid fraction of a packing, height [m] along the last axis of
 /// the sample at the solid fraction `phi`, size of gravity [m/s2].
 double scree_expected_solid_fraction(const scree_model *model);

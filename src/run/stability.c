@@ -182,6 +182,7 @@ static void explain(const checked *c, double step, double softness, char *text, 
 {
     const bool deforms = c->scheme.share > 0 && c->scheme.radius > 0;
     const bool lagged = deforms && c->scheme.share == 1, stiff = deforms && softness > 0 && softness < 1;
+    const double present = scree_stiffness_ratio(&c->specimen);
     char what[160], ratio[96] = "";
     if (step > 0)
         (void)snprintf(what, sizeof what, "the step of %.5g s is above the critical one of the specimen, %.5g s",
@@ -190,7 +191,8 @@ static void explain(const checked *c, double step, double softness, char *text, 
         (void)snprintf(what, sizeof what, "no step is stable, as the spectral radius of the strains is %.4g",
                        c->scheme.radius);
     if (stiff)
-        (void)snprintf(ratio, sizeof ratio, "; with this step k_n/E may be %.4g times the present one", softness);
+        (void)snprintf(ratio, sizeof ratio, "; k_n/E is %.4g m, and may be %.4g m with this step", present,
+                       softness * present);
     (void)snprintf(
         text, size, "%s%s: take %s%s%s", what, ratio, step > 0 ? "a smaller integrator.step" : "",
         stiff ? (step > 0 ? ", stiffer particles or softer contacts" : "stiffer particles or softer contacts") : "",

@@ -561,3 +561,15 @@ scree_status scree_step_of_bodies(const scree_specimen *s, double *step, scree_e
     scree_release(&matrix);
     return status;
 }
+
+double scree_stiffness_ratio(const scree_specimen *s)
+{
+    double stiffness = 0, modulus = 0, count = 0;
+    for (size_t c = 0; c < s->contact_count; c++) stiffness += s->contact[c].stiffness.normal;
+    for (size_t body = 0; body < s->body_count; body++) {
+        if (!(s->compliance[body].shear > 0)) continue;
+        modulus += scree_compliance_modulus(s->condition, s->compliance[body]);
+        count++;
+    }
+    return stiffness / (double)s->contact_count * count / modulus;
+}

@@ -68,6 +68,9 @@ scree_status scree_radius_bound(const scree_specimen *specimen, double *bound, s
 scree_status scree_stability_softness(const scree_specimen *specimen, scree_strain_scheme scheme, double step,
                                       double *factor, scree_error *error) __attribute__((warn_unused_result));
 
+/// k_n / E [m]: mean stiffness of the contacts over the mean Young's modulus of the particles that deform.
+double scree_stiffness_ratio(const scree_specimen *specimen);
+
 /// Steps [s] from single bodies: 2 sqrt(m / k) least over the bodies with the largest stiffness k of each while its
 /// neighbours stand (M 2.17, 2.18), and sqrt(m_min / k_max) (M 2.19 with alpha = 1). Errors: memory.
 scree_status scree_step_of_bodies(const scree_specimen *specimen, double *step, scree_error *error)

@@ -49,6 +49,13 @@ for name in $("$scree" list | awk '{ print $1 }'); do
     expect 0 '^# time needed ' "$scree" check "$name" --quick
 done
 
+# --- above a limit: values, limits, and ways out
+expect 3 'spectral radius of the strains is 1.18[0-9]*; k_n/E is 0.7 m, and may be 0.5877[0-9]* m with this step: take stiffer .*relaxed or implicit' "$scree" run ddem-stability -q -o above --set materials.disc.young_modulus=1e11
+expect 2 'critical step of this case, 1.41e-08 s, and may be unstable; give 7e-09 s, or auto, or less damping \(2.45e-07 s without dashpots\)' "$scree" run ddem-stability -q -o above --set materials.disc.damping_ratio=5
+"$scree" run ddem-stability -q -o above --set integrator.step='400 ns' 2>&1 | grep -q 'less damping' && complain 'dashpots that are not there'
+expect 2 'young_modulus: .0. is too small' "$scree" check ddem-stability --set materials.disc.young_modulus=0
+grep -q 'poisson_ratio' <<<"$output" && complain 'a Poisson ratio that is right is refused'
+
 # --- moduli
 expect 0 '^young_modulus +[0-9.e+]+ +Pa ' "$scree" moduli "${small[@]}" --at deform
 stiff=$(value young_modulus)
