@@ -60,7 +60,7 @@ done
 expect 0 '^' "$scree" run ddem-waves -q --no-figures --set stages.travel.duration='30 us' --set measure.wave_every=3 -o whole
 "$scree" run ddem-waves -q --no-figures --set stages.travel.duration='30 us' --set measure.wave_every=3 -o part &
 run=$!
-wait_for 'stage relax ended' part/log.txt
+wait_for 'stage relax (pull) ended' part/log.txt
 sleep 0.3
 kill -INT $run
 wait $run

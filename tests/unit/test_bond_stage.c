@@ -215,7 +215,7 @@ static void runs_break_and_go_on(void **unused)
     (void)snprintf(whole, sizeof whole, "%s/whole", folder);
     (void)snprintf(part, sizeof part, "%s/part", folder);
     scree_case *c = case_read(strip, NULL, 0);
-    run_restart(c, whole, part, 2, "stage relax ended");
+    run_restart(c, whole, part, 2, "stage relax (pull) ended");
     const double broken = result_of(whole, "bonds_broken_tension") + result_of(whole, "bonds_broken_shear");
     print_message("%g of %g bonds broke, the first after %g s\n", broken, result_of(whole, "bonds_made"),
                   result_of(whole, "first_break_time"));
