@@ -98,7 +98,7 @@ SCREE_API scree_status scree_run_data_visit(const char *directory, const char *g
                                             void (*visit)(void *user, const char *name, bool is_group), void *user,
                                             scree_error *error);
 
-/// Reads a dataset, "snapshots/000012/contacts/force" (docs/output.md), into memory of its own that *keeper keeps,
+/// Reads a dataset, "snapshots/000012/contacts/normal_force" (docs/output.md), into memory of its own that *keeper keeps,
 /// texts of the view too. Errors: as above.
 SCREE_API scree_status scree_run_data_read(const char *directory, const char *path, scree_view *view,
                                            scree_keeper **keeper, scree_error *error);

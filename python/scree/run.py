@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import re
 import warnings
 from ctypes import byref, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
-from typing import Any, Iterator, Mapping, Optional
+from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -39,6 +40,12 @@ def to_frame(columns: Mapping[str, np.ndarray]) -> Any:
     return pandas.DataFrame(dict(columns))
 
 
+def nearest(name: str, names: "Iterable[str]") -> str:
+    """The end of a message about a name that is none; empty where none of `names` is near."""
+    near = difflib.get_close_matches(name, list(names), 1)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
 class Series(Mapping[str, np.ndarray]):
     """Columns of a table as NumPy arrays by name: `series["stress_ratio"]`."""
 
@@ -49,9 +56,7 @@ class Series(Mapping[str, np.ndarray]):
         try:
             return self._columns[name]
         except KeyError:
-            import difflib
-            near = difflib.get_close_matches(name, self._columns, 1)
-            raise KeyError(f"there is no column '{name}'" + (f"; did you mean '{near[0]}'?" if near else "")) from None
+            raise KeyError(f"there is no column '{name}'" + nearest(name, self._columns)) from None
 
     def __iter__(self) -> "Iterator[str]":
         return iter(self._columns)
@@ -85,7 +90,7 @@ class Group(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         names, first = self._names(), name.split("/")[0]
         if first not in names:
-            raise KeyError(f"{self._path} has no '{name}'; it has {', '.join(sorted(names))}")
+            raise KeyError(f"{self._path} has no '{name}'{nearest(first, names)} (it has {', '.join(sorted(names))})")
         if "/" in name:
             return self[first][name[len(first) + 1:]]
         return Group(self._folder, f"{self._path}/{name}") if names[first] else self._read(name)[0]
@@ -112,7 +117,7 @@ class Group(Mapping[str, Any]):
 
 class Snapshot(Group):
     """A snapshot (docs/output.md, "run.h5"): `snapshot["position"]` (n x dimension, in the order of ids),
-    `snapshot["radius"]`, `snapshot["contacts/force"]`."""
+    `snapshot["radius"]`, `snapshot["contacts/normal_force"]`."""
 
     def __init__(self, folder: Path, index: int):
         super().__init__(folder, f"snapshots/{index:06d}")
@@ -175,8 +180,11 @@ class Run:
         return [Snapshot(self.folder, int(name)) for name in sorted(Group(self.folder, "snapshots"))]
 
     def snapshot(self, index: int = -1) -> Snapshot:
-        """One of them by its place; -1 is the last."""
-        return self.snapshots[index]
+        """One of them by its place; -1 is the last. IndexError where there are fewer."""
+        snapshots = self.snapshots
+        if not -len(snapshots) <= index < len(snapshots):
+            raise IndexError(f"there is no snapshot {index}: '{self.folder}' has {len(snapshots)}")
+        return snapshots[index]
 
     def h5(self) -> Any:
         """run.h5 as a h5py.File, for all that the library does not show; ImportError where h5py is not installed."""
@@ -211,9 +219,10 @@ class Run:
             call(lib.scree_export_contacts, encode(self.folder), name, encode(contacts), byref(frames))
         return file
 
-    def chart(self, y: str, *, x: Optional[str] = None, stage: Optional[str] = None) -> Path:
-        """Draws columns of the series, "p,q", over another one (time), of rows of these stages; its path."""
-        asked = PlotColumns(x=x.encode() if x else None, y=y.encode(), stage=stage.encode() if stage else None)
+    def chart(self, y: "Union[str, Sequence[str]]", *, x: Optional[str] = None, stage: Optional[str] = None) -> Path:
+        """Draws columns of the series, "p,q" or ["p", "q"], over another one (time), of rows of these stages; its path."""
+        names = y if isinstance(y, str) else ",".join(y)
+        asked = PlotColumns(x=x.encode() if x else None, y=names.encode(), stage=stage.encode() if stage else None)
         return self._draw(lib.scree_plot_chart, asked)[0]
 
     def scene(self, field: str, *, at: Optional[str] = None, section: bool = False) -> Path:

@@ -248,6 +248,18 @@ class Folders(unittest.TestCase):
         cls.run_ = case.run(SCRATCH / "run", threads=1, figures=False, message=lambda level, line: lines.append(line))
         assert lines
 
+    def test_first_example(self):
+        """What docs/python.md shows first runs as it stands, on fewer grains."""
+        example = re.search(r"((?:    .*\n)*    run = case.run.*\n(?:    .*\n)*)", (SOURCE / "docs" / "python.md").read_text())
+        lines = [line[4:] for line in example.group(1).splitlines()]
+        lines.insert(next(k for k, line in enumerate(lines) if line.startswith("case = ")) + 1,
+                     'case["particles.count"] = 60; case["stages.compress.strain"] = 0.01; case["measure.windows"] = []')
+        script = SCRATCH / "example.py"
+        script.write_text("\n".join(lines) + "\n")
+        done = subprocess.run([sys.executable, str(script)], cwd=SCRATCH, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^\(60, 2\) \[\[")
+
     def test_results(self):
         run = self.run_
         by_program = subprocess.run([find_program(), "get", str(run.folder), "phi"], capture_output=True, text=True)
@@ -270,6 +282,7 @@ class Folders(unittest.TestCase):
     def test_charts_scenes_and_movies(self):
         run = self.run_
         self.assertEqual(run.chart("p,q", x="axial_strain", stage="compress").suffix, ".svg")
+        self.assertEqual(run.chart(["p", "q"]), run.chart("p,q"))
         self.assertTrue(run.scene("speed", at="start").is_file())
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # where there is no ffmpeg
@@ -308,8 +321,10 @@ class Folders(unittest.TestCase):
         del snapshots, last
         gc.collect()
         self.assertTrue((force > 0).all())
-        with self.assertRaises(KeyError):
+        with self.assertRaisesRegex(KeyError, "did you mean 'position'"):
             self.run_.snapshot()["postion"]
+        with self.assertRaisesRegex(IndexError, "no snapshot 77: .* has [0-9]+"):
+            self.run_.snapshot(77)
         with scree.Simulation.open_run(self.run_.folder) as simulation:
             np.testing.assert_array_equal(simulation.positions(), self.run_.snapshot()["position"])
 
