@@ -15,21 +15,44 @@ scree_loading_rows scree_loading_rows_find(const scree_series *series)
     return rows;
 }
 
+/// The end of the branch that begins with the first of these rows: behind the row at which the strain turns, by more than
+/// a hundredth of the window.
+static size_t branch_end(const double *strain, scree_loading_rows rows)
+{
+    const double turn = 0.01 * SCREE_PEAK_WINDOW;
+    size_t extreme = rows.first;
+    double direction = 0;
+    for (size_t k = rows.first; k < rows.last; k++) {
+        const double way = strain[k] - strain[rows.first], on = strain[k] - strain[extreme];
+        if (direction == 0 && fabs(way) > turn) direction = way > 0 ? 1 : -1;
+        if (direction == 0 ? fabs(way) > fabs(strain[extreme] - strain[rows.first]) : direction * on > 0) extreme = k;
+        if (direction * on < -turn) return extreme + 1;
+    }
+    return rows.last;
+}
+
 /// Mean of the ratio over the rows about row k.
 static double running_mean(const double *ratio, const double *strain, scree_loading_rows rows, size_t k)
 {
     double sum = ratio[k], count = 1, half = 0.5 * SCREE_PEAK_WINDOW;
-    for (size_t j = k; j > rows.first && strain[k] - strain[j - 1] <= half; j--, count++) sum += ratio[j - 1];
-    for (size_t j = k + 1; j < rows.last && strain[j] - strain[k] <= half; j++, count++) sum += ratio[j];
+    for (size_t j = k; j > rows.first && fabs(strain[k] - strain[j - 1]) <= half; j--, count++) sum += ratio[j - 1];
+    for (size_t j = k + 1; j < rows.last && fabs(strain[j] - strain[k]) <= half; j++, count++) sum += ratio[j];
     return sum / count;
 }
 
 scree_peak scree_peak_find(const double *ratio, const double *strain, scree_loading_rows rows)
 {
     scree_peak peak = {NAN, NAN};
-    for (size_t k = rows.first; k < rows.last; k++) {
-        double value = running_mean(ratio, strain, rows, k);
-        if (value > peak.value || (isnan(peak.value) && !isnan(value))) peak = (scree_peak){value, strain[k]};
+    for (scree_loading_rows branch = {rows.first, rows.first}; branch.last < rows.last;) {
+        branch.last = branch_end(strain, (scree_loading_rows){branch.first, rows.last});
+        const bool whole = branch.last - branch.first == rows.last - rows.first;
+        const bool wide = whole || fabs(strain[branch.last - 1] - strain[branch.first]) >= SCREE_PEAK_WINDOW;
+        for (size_t k = branch.first; k < branch.last && wide; k++) {
+            double value = running_mean(ratio, strain, branch, k);
+            if (value > peak.value || (isnan(peak.value) && !isnan(value))) peak = (scree_peak){value, strain[k]};
+        }
+        // The row of the turn is of both branches.
+        branch.first = branch.last - 1;
     }
     return peak;
 }

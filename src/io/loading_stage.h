@@ -23,8 +23,9 @@ typedef struct scree_peak {
 } scree_peak;
 
 /// Largest running mean of `ratio` over the rows whose strain lies within half of SCREE_PEAK_WINDOW, and the strain of
-/// its row: the plates' start and single samples make spikes. ratio, strain: columns of series.csv. Cost: rows times
-/// rows in the window.
+/// its row: the plates' start and single samples make spikes. A window ends where the strain turns, and between two turns
+/// that are less than a window apart nothing is looked for: cycles have no peak. ratio, strain: columns of series.csv.
+/// Cost: rows times rows in the window.
 scree_peak scree_peak_find(const double *ratio, const double *strain, scree_loading_rows rows);
 
 /// The first peak of a curve.

@@ -12,6 +12,8 @@
 #include <string.h>
 
 #define CURVES 12
+/// Volumetric strain [1] that is rounding: solid fractions are sums over all bodies.
+#define SAME_VOLUME 1e-9
 
 enum { AUTOMATIC, BLUE, VERMILLION, GREEN, PINK, SKY, ORANGE, BLACK };
 
@@ -210,11 +212,24 @@ static bool add_mark(const scree_plot_run *run, const chart_row *row, mark *m, s
     return row->mark == STEADY && mark_steady(run, m, line);
 }
 
-/// A sample that was sheared has no ratio of axial to lateral stress that would say something.
+/// The volume was kept: all that is left of its strain is rounding.
+static bool keeps_volume(const scree_plot_run *run, const chart_row *row)
+{
+    const double *strain = scree_series_get(&run->series, "volumetric_strain_solid");
+    if (strcmp(row->figure.name, "volumetric-strain") != 0 || !strain || run->row_count == 0) return false;
+    for (size_t k = 0; k < run->row_count; k++)
+        if (!(fabs(strain[run->first_row + k]) < SAME_VOLUME)) return false;
+    return true;
+}
+
+/// A sample that was sheared has no ratio of axial to lateral stress that would say something, one that was not has no
+/// friction, and one whose volume was kept has no volumetric strain.
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
 {
     const chart_row *row = (const chart_row *)figure;
     if (row->mark == PEAK && run->of_cell && isfinite(scree_plot_result(run, "mu"))) return false;
+    if (row->mark == STEADY && run->of_cell && scree_plot_result(run, "shear_strain_reached") == 0) return false;
+    if (keeps_volume(run, row)) return false;
     return !run->series_status && (run->of_cell || !row->of_cell);
 }
 

@@ -56,7 +56,8 @@ static size_t rates_of_outflow(const scree_plot_run *run, slope *line)
         const double to =
             fmin(end, begin + (number[last] - from) / (rate[count] * of_mass)); // none comes out after all
         line[count] = (slope){{begin, to}, {from, from + rate[count] * of_mass * (to - begin)}, ""};
-        (void)snprintf(line[count].label, LABEL, count ? "Beverloo: %.3g kg/s" : "steady: %.3g kg/s", rate[count]);
+        (void)snprintf(line[count].label, LABEL, "%s: %.4g 1/s, %.3g kg/s", count ? "Beverloo" : "steady",
+                       rate[count] * of_mass, rate[count]);
     }
     return count;
 }

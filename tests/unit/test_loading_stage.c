@@ -153,9 +153,42 @@ static void peaks_are_of_the_running_mean(void **unused)
     // Rows outside of the stage do not count, and at its ends the window has fewer rows.
     peak = scree_peak_find(ratio, strain, (scree_loading_rows){14, 25});
     assert_true(peak.value == (2 + 1 + 1) / 3.0 && peak.strain == strain[14]);
+    // Extension: the same backwards.
+    for (int k = 0; k < ROWS; k++) strain[k] = -strain[k];
+    peak = scree_peak_find(ratio, strain, (scree_loading_rows){0, ROWS});
+    assert_true(peak.value == 2 && peak.strain == strain[12]);
     for (int k = 0; k < ROWS; k++) ratio[k] = NAN;
     peak = scree_peak_find(ratio, strain, (scree_loading_rows){0, ROWS});
     assert_true(isnan(peak.value) && isnan(peak.strain));
+}
+
+static void cycles_have_no_peak(void **unused)
+{
+    (void)unused;
+    // Up by 0.9 %, down, and so on: no branch is as wide as the window.
+    enum { ROWS = 40 };
+    double ratio[ROWS], strain[ROWS];
+    for (int k = 0; k < ROWS; k++) {
+        const int step = k % 18;
+        strain[k] = (step <= 9 ? step : 18 - step) / 1000.0;
+        ratio[k] = 1 + 100 * strain[k];
+    }
+    scree_peak peak = scree_peak_find(ratio, strain, (scree_loading_rows){0, ROWS});
+    assert_true(isnan(peak.value) && isnan(peak.strain));
+    // A loop of unloading on the way: rows beyond its turns do not mix with those before.
+    for (int k = 0; k < ROWS; k++) {
+        strain[k] = (k < 20 ? k : k < 24 ? 38 - k : k - 9) / 500.0;
+        ratio[k] = k < 20 ? 2 : k < 23 ? 50 : 1;
+    }
+    peak = scree_peak_find(ratio, strain, (scree_loading_rows){0, ROWS});
+    assert_true(peak.value == 2 && peak.strain == strain[0]);
+    // Less than the turn: the strain of a servo goes back and forth by as little.
+    for (int k = 0; k < ROWS; k++) {
+        strain[k] = k / 500.0 - (k % 2 ? 0.00209 : 0);
+        ratio[k] = k == 20 ? 3 : 1;
+    }
+    peak = scree_peak_find(ratio, strain, (scree_loading_rows){0, ROWS});
+    assert_true(peak.value > 1 && peak.value < 2);
 }
 
 int main(void)
@@ -164,6 +197,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(all_results_are_of_one_stage, make_scratch, remove_scratch),
         cmocka_unit_test(rows_are_those_of_the_last_strain),
         cmocka_unit_test(peaks_are_of_the_running_mean),
+        cmocka_unit_test(cycles_have_no_peak),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
