@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 /// Says which built-in case is nearest to `name`, or else which there are.
 static void refuse(const scree_command *command, const char *name, const char *message)
@@ -45,10 +45,13 @@ scree_status scree_case_argument_read(const scree_command *command, const char *
 {
     *out = NULL;
     const char *builtin = NULL;
-    if (access(name, F_OK) != 0) {
+    struct stat about;
+    const bool there = stat(name, &about) == 0;
+    // A folder of that name, of a run or a sweep of it, hides no built-in case.
+    if (!there || S_ISDIR(about.st_mode)) {
         builtin = scree_template_text(name);
         // A name with a dot or a slash was meant as a file: reading it says why that fails.
-        if (!builtin && !strpbrk(name, "./")) {
+        if (!builtin && !there && !strpbrk(name, "./")) {
             refuse(command, name, "there is no file and no built-in case of this name");
             return SCREE_ERROR_INPUT;
         }

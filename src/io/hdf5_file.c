@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /// Debian's HDF5 is not for several threads at once: whoever has a file open holds this, from begin to close. The
 /// thread that holds it may open another one.
@@ -161,6 +162,12 @@ void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
 static void open_existing(scree_hdf5 *hdf5, unsigned mode)
 {
     if (hdf5->status) return;
+    // HDF5 says it in its own words.
+    if (access(hdf5->path, F_OK) != 0) {
+        hdf5->damaged = true;
+        hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot open '%s'", hdf5->path);
+        return;
+    }
     hid_t access = access_properties(NULL);
     if (access >= 0) hdf5->file = H5Fopen(hdf5->path, mode, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "open", NULL);

@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <unistd.h>
 
 enum { BANDS = 60000 };   ///< numbers of a table that has bands; each is resampled
 #define LEAST_INSIDE 0.5  /* of an element, where strains are looked at: outside of the surface there are none */
@@ -203,7 +204,10 @@ static scree_status check_kinds(const char *const *runs, size_t count, const scr
                                 scree_error *error)
 {
     size_t files = 0;
-    for (size_t k = 0; k < count; k++) files += measure_is_file(runs[k]);
+    for (size_t k = 0; k < count; k++) {
+        if (access(runs[k], F_OK) != 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", runs[k]);
+        files += measure_is_file(runs[k]);
+    }
     const char *wrong = files > 0 ? NULL : options->sample_case ? "case" : options->contacts ? "contacts" : NULL;
     if (!wrong && (!options->contacts || files <= 1)) return SCREE_OK;
     (void)scree_error_set(error, SCREE_ERROR_INPUT,

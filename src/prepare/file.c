@@ -175,6 +175,7 @@ static void supply(scree_reader *reader, const scree_node *stage)
     (void)snprintf(text, sizeof text, "%zu", g.count);
     if (count) scree_case_supply(reader, "particles.count", text);
     if (!sized && g.column[SCREE_GRAIN_RADIUS]) supply_radii(reader, &g, factor);
+    if (!sized && !g.column[SCREE_GRAIN_RADIUS]) supply_limits(reader, 1, 2); // the rules say what is missing
     scree_grains_destroy(&g);
 }
 
@@ -235,7 +236,8 @@ static bool check_radii(const judged *j)
     if (!(sizes.least > 0)) return false; // missing or wrong, and noted
     if (!j->g->sized && !scree_listed_equal(j->config)) {
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
-                          "the file has no radii: give particles.distribution: equal with the radius that all have");
+                          "the file has no radii: give it a column radius or diameter, or `particles` distribution: equal "
+                          "with the radius that all have");
         return false;
     }
     double least = INFINITY, most = 0;
@@ -288,7 +290,8 @@ static void check_overlaps(const judged *j)
     const double *const place[3] = {j->g->column[0], j->g->column[1], in_3d ? j->g->column[2] : NULL};
     scree_given_overlap found;
     scree_error error;
-    if (in_3d && !place[2]) return; // noted
+    double lower, upper;
+    if (in_3d ? !place[2] : !scree_grains_are_2d(j->g, &lower, &upper)) return; // noted
     if (scree_given_find_overlap(j->g->count, place, j->g->column[SCREE_GRAIN_RADIUS], j->config->guard.overlap, &found,
                                  &error)) {
         scree_reader_fail(j->reader, j->g->count);

@@ -17,6 +17,7 @@
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /// Path of a file beside the sweep file.
@@ -365,13 +366,16 @@ scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *
     input in = {.name = name, .options = options};
     char *bytes = NULL;
     *out = NULL;
-    if (built_in && access(name, F_OK) != 0) {
+    struct stat about;
+    const bool there = stat(name, &about) == 0;
+    // A folder of that name, of the sweep itself, hides no built-in sweep.
+    if (built_in && (!there || S_ISDIR(about.st_mode))) {
         in.text = built_in->text;
         in.length = built_in->length;
         in.embedded = true;
         return read_text(&in, out, problems);
     }
-    if (access(name, F_OK) != 0) return refuse(name, is_built_in_case(name), problems);
+    if (!there) return refuse(name, is_built_in_case(name), problems);
     scree_status status = scree_case_text(name, &bytes, &in.length, problems);
     in.text = bytes;
     if (!status) status = is_case(bytes) ? refuse(name, true, problems) : read_text(&in, out, problems);

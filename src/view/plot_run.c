@@ -109,11 +109,12 @@ static scree_status read_case_windows(scree_plot_run *run, scree_error *error)
     return status;
 }
 
-/// Without a case: the first and the last quarter of the loading; none where no two snapshots differ in strain.
+/// Without windows in the case: the first and the last quarter of the loading; none where no two snapshots differ in
+/// strain, or the strain turns back, so that it does not say when.
 static scree_status find_windows(scree_plot_run *run, scree_error *error)
 {
     scree_status status = read_case_windows(run, error);
-    if (status || run->window_count > 0) return status;
+    if (status || run->window_count > 0 || turns_back(run)) return status;
     double low = INFINITY, high = -INFINITY;
     for (size_t k = 0; k < run->snapshot_count; k++) {
         low = fmin(low, run->strain[k]);
@@ -223,6 +224,10 @@ double scree_plot_result(const scree_plot_run *run, const char *name)
 void scree_plot_percent(char *text, size_t size, double strain, bool name)
 {
     double percent = 100 * strain;
+    if (!name && fabs(percent) < 0.95) {
+        (void)snprintf(text, size, "%.2g", percent + 0.0);
+        return;
+    }
     bool whole = fabs(percent - round(percent)) < 0.05;
     if (whole) percent = round(percent) + 0.0; // no minus zero
     (void)snprintf(text, size, "%0*.*f", !name ? 0 : whole ? 2 : 4, whole ? 0 : 1, percent);

@@ -31,6 +31,7 @@ same "$(grep -c TIMESTEP plane.dump)" "$("$scree" export plane | sed 's/.*: \([0
 cmp -s plane.dump plane/snapshots.lammpstrj || complain "two names, two dumps"
 read_back plane biaxial
 expect 0 'of-one.dump: 5 frames' "$scree" export plane --stage compress -o of-one.dump
+expect 4 "^scree export: cannot open 'none/run.h5': No such file or directory\$" "$scree" export none
 expect 2 "^scree export: --stage: the run has no snapshot of a stage 'compres' \(accepted: prepare, confine, compress\)" \
     "$scree" export plane --stage compres
 expect 4 '^scree export: ' "$scree" export none

@@ -53,6 +53,7 @@ close "$(value first contacts)" "$(value own-first contacts)" 0 'contacts of an 
 
 # --- what is wrong
 expect 2 '^cell.dump: --case: a file of grains says neither material nor law' "$scree" measure cell.dump
+expect 4 "^scree measure: cannot open 'none.dump': No such file" "$scree" measure none.dump --case biaxial
 expect 2 'it is of files of grains' "$scree" measure cell --case biaxial
 awk '/^ITEM: ATOMS/ { rows = 1; print; next } /^ITEM/ { rows = 0 } rows { $5 = 1e-3 * $1 } { print }' cell.dump >space.dump
 expect 2 'they lie in space, and the case in a plane' "$scree" measure space.dump --case cell/case.yaml -o x

@@ -42,6 +42,9 @@ expect 2 'no number of jobs|not a number of jobs' "$scree" sweep tiny.yaml --job
 expect 2 'a number from 0 to 3' "$scree" sweep tiny.yaml --member 4
 expect 2 'there is no file and no built-in sweep of this name' "$scree" sweep nothing.yaml
 expect 2 '^biaxal-boundaries: .*\(accepted: biaxial-boundaries\)$' "$scree" sweep biaxal-boundaries
+mkdir restitution
+expect 0 'scree run' "$scree" sweep restitution --dry-run
+rmdir restitution
 expect 2 '^hopper: this is a case, not a sweep: ' "$scree" sweep hopper
 "$scree" new hopper >a-case.yaml
 expect 2 '^a-case.yaml: this is a case, not a sweep: ' "$scree" sweep a-case.yaml

@@ -51,7 +51,9 @@ awk -F, -v r="$("$scree" get hopper beverloo_ratio)" 'NR == 2 { for (k = 3; k <=
 # a shear test shows mu and its steady mean, and no ratio of axial to lateral stress
 # cycles at constant volume have no peak, no shear, and no volumetric strain
 same "$("$scree" get cyclic peak_stress_ratio)" nan "peak of cycles"
-for name in volumetric-strain shear-ratio; do [ -e "cyclic/figures/$name.svg" ] && complain "cycles at constant volume have a chart $name"; done
+for name in volumetric-strain shear-ratio fluctuations-00-00 fluctuations-00-00.1; do
+    [ -e "cyclic/figures/$name.svg" ] && complain "cycles at constant volume have a figure $name"
+done
 [ -e shear/figures/stress-ratio.svg ] && complain "a shear test has a chart of the stress ratio"
 awk -F, -v m="$("$scree" get shear mu)" -v e="$("$scree" get shear mu_error)" -v f="$("$scree" get shear mu_from)" \
     'NR == 2 { a = $3 / 100 - f; b = $4 - m; c = e + 0 > 0 ? $6 - m - e : NF - 4 } END { exit !(NR > 2 && a * a + b * b + c * c < 1e-14) }' \

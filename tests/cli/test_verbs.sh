@@ -73,6 +73,11 @@ expect 0 '^#   figures +0 s$' "$scree" check periodic-shear --set output.figures
 expect 0 '^# inertial number +[0-9]' "$scree" check my.yaml --quick
 expect 0 '^# warning +stage 2 \(compress\): inertial number 0\.0[0-9]+, above 0\.001: .*a rate of 0\.01' "$scree" check my.yaml --set 'stages.compress.rate=0.5 1/s'
 
+# --- a folder of the name, such as that of its run, hides no built-in case
+mkdir pour-discs
+expect 0 '^# particles' "$scree" check pour-discs --quick
+rmdir pour-discs
+
 # --- run: a file of the name wins over the built-in case
 expect 0 'results in out' "$scree" run biaxial -o out --threads 2 "${small[@]}"
 for file in case.yaml summary.json series.csv run.h5 log.txt; do [ -s "out/$file" ] || complain "no out/$file"; done
@@ -170,6 +175,8 @@ same "$output" "$last" "the strain at the end against the end"
 expect 0 'scene-forces' "$scree" plot out --scene forces --at confine
 expect 2 "^scree plot: --scene: .*no field 'sped' \(accepted: speed\)$" "$scree" plot out --scene sped
 expect 2 "^scree plot: --scene: .*no field 'velocity_z'" "$scree" plot out --scene velocity_z # of spheres
+expect 2 "^scree plot: --at: the run does not reach '9 %' \\(accepted: 0 % to [0-9.]+ %\\)\$" "$scree" plot out --scene speed --at '9 %'
+expect 2 "^scree plot: --at: the run does not reach '3600 s' \\(accepted: 0 s to " "$scree" plot out --scene speed --at '1 h'
 expect 2 "^scree plot: --at: .*no snapshot of 'peek'" "$scree" plot out --scene speed --at peek
 expect 2 '^scree plot: --section: discs cannot be cut' "$scree" plot out --scene speed --section
 expect 2 '^scree plot: --at: needs --scene' "$scree" plot out --at end

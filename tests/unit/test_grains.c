@@ -334,6 +334,14 @@ static void a_case_leaves_out_what_the_file_says(void **unused)
     const char *const missing[] = {"stages.0.file=/nowhere.csv"};
     (void)snprintf(text, sizeof text, "%s" OUT "stages: [{stage: prepare, method: file, file: %s}]\n", begin, path);
     case_refused_alone(text, missing, 1, "stages.0.file: ");
+    // A file without radii: they are what is missing, and not keys that it should have made needless.
+    (void)snprintf(text, sizeof text, "%s" OUT "stages: [{stage: prepare, method: file, file: %s}]\n", begin,
+                   write_file("bare.csv", "x [mm],y [mm]\n1.5,1\n4,1\n6,2\n"));
+    case_refused_alone(text, NULL, 0, "stages.0.file: the file has no radii: give it a column radius");
+    // Of another dimension: flattened, its grains would overlap.
+    (void)snprintf(text, sizeof text, "%s" OUT "stages: [{stage: prepare, method: file, file: %s}]\n", begin,
+                   write_file("space.csv", "x [mm],y [mm],z [mm],radius [mm]\n2,2,1,1\n2,2,4,1\n"));
+    case_refused_alone(text, NULL, 0, "stages.0.file: z of the grains goes from");
     // Two materials: which one is not known.
     (void)snprintf(text, sizeof text, HEAD OUT "stages: [{stage: prepare, method: file, file: %s}]\n", path);
     case_refused(text, NULL, 0, "particles.material: required");
