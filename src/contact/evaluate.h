@@ -105,8 +105,8 @@ SCREE_INLINE void contact_moments(int dimension, vector along, lanes factor, vec
         for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);
 }
 
-/// An increment of the ledger [J] in quanta; of laws of areas, whose bounds of energies are no strict ones, cut where it
-/// would be no number any more.
+/// An increment of the ledger [J] in quanta; of laws of areas, whose bounds of energies are no strict ones, cut where
+/// it would be no number any more.
 SCREE_INLINE lanes_bits energy_quanta(variant v, lanes energy, double inverse_quantum)
 {
     const lanes most = lanes_all(ldexp(1, SCREE_FIXED_RANGE_BITS) / inverse_quantum);

@@ -105,8 +105,8 @@ SCREE_INLINE kinematics outlines_place(const scree_overlap *overlap, double leng
     return m;
 }
 
-/// Velocities of n - 1/2, for the work that a force at its own pose has done. velocity: of the second centre relative to
-/// the first. The line between the centres is that from lever to lever, also where nothing is shared.
+/// Velocities of n - 1/2, for the work that a force at its own pose has done. velocity: of the second centre relative
+/// to the first. The line between the centres is that from lever to lever, also where nothing is shared.
 SCREE_INLINE void outlines_pass(kinematics *m, const double velocity[2], const double spin[2])
 {
     m->passing = (vector){-velocity[0], -velocity[1], 0};

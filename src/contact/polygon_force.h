@@ -13,8 +13,8 @@
 /// Ledger. In a leapfrog scheme the forces of n - 1 and n have each done half of their power at v(n - 1/2) times dt,
 /// each along its normal and at its point. A chord may jump where an edge turns through parallel, so neither is taken
 /// from the rates of the middle of the step: the contact remembers normal and lever of its last force, and with the
-/// ways a', s' of n - 1 and a, s of n the work on dashpots is (g(n-1) a' + g(n) a)/2, and `stiffness` is what the forces
-/// gave that is not stored or dissipated,
+/// ways a', s' of n - 1 and a, s of n the work on dashpots is (g(n-1) a' + g(n) a)/2, and `stiffness` is what the
+/// forces gave that is not stored or dissipated,
 ///   W(n) - W(n-1) - (f_e(n-1) a' + f_e(n) a)/2,
 /// of the energy W that the law says the contact has, and the same of the tangential force, third order in the step.
 /// Then the balance closes to round-off. Where f_e is the gradient of W it is the error of the step alone, and not
@@ -47,8 +47,8 @@ typedef struct scree_polygon_material {
         .wide = true, .areas = true                                                                                    \
     }
 
-/// What a direction is kept as, one number in -2 .. 2: the way round the square |x| + |y| = 1 from (1, 0), which needs no
-/// function but a division.
+/// What a direction is kept as, one number in -2 .. 2: the way round the square |x| + |y| = 1 from (1, 0), which needs
+/// no function but a division.
 SCREE_INLINE lanes direction_fold(vector n)
 {
     return lanes_with_sign(1.0 - n.x / (lanes_abs(n.x) + lanes_abs(n.y)), n.y);
