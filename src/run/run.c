@@ -13,6 +13,7 @@
 #include "run/results.h"
 #include "search/neighbours.h"
 #include "shape/wall_set.h"
+#include "view/font.h"
 #include "view/plot.h"
 
 #include <string.h>
@@ -117,6 +118,7 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
 {
     scree_error problem;
     scree_status status = SCREE_OK;
+    char said[300];
     const volatile int *stop = recorder->options->stop;
     if (!recorder->options->figures || !s->model.output.figures) return SCREE_OK;
     if (!stop || !*stop) status = scree_plot_draw(recorder->directory, NULL, NULL, NULL, &problem);
@@ -126,6 +128,7 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
                                "`scree run --restart %s`",
                                recorder->directory);
     if (status) scree_log_write(&recorder->log, SCREE_LOG_WARNING, "figures: %s", problem.message);
+    if (scree_font_missing(said, sizeof said)) scree_log_write(&recorder->log, SCREE_LOG_WARNING, "%s", said);
     return SCREE_OK;
 }
 

@@ -4,6 +4,7 @@
 #include "base/handle.h"
 #include "base/memory.h"
 #include "io/run_directory.h"
+#include "view/font.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -165,6 +166,12 @@ static scree_status make_folders(const char *output, scree_error *error)
     return status;
 }
 
+static void warn_of_font(const scree_sweep_options *options)
+{
+    char said[300];
+    if (options->figures && scree_font_missing(said, sizeof said)) scree_sweep_tell(options, 1, "%s", said);
+}
+
 static scree_status collect(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
 {
     scree_sweep_results results;
@@ -176,6 +183,7 @@ static scree_status collect(const scree_sweep *sweep, const scree_sweep_options 
     if (!status && results.done > 0 && options->figures) scree_sweep_draw_measures(&results);
     if (!status) status = scree_ensembles_measure(&results, error);
     warn_of_strangers(sweep, options);
+    warn_of_font(options);
     size_t missing = sweep->member_count - results.done - results.failed;
     if (!status && missing > 0)
         scree_sweep_tell(options, 1, "%zu of %zu members are still to be run", missing, sweep->member_count);

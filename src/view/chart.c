@@ -5,6 +5,7 @@
 
 #include "io/manifest.h"
 #include "io/run_directory.h"
+#include "view/font.h"
 #include "view/gnuplot.h"
 #include "view/page.h"
 
@@ -399,13 +400,13 @@ static void write_script(FILE *file, const scree_chart *chart, const char *name)
     fprintf(file, "# Run in this folder to draw the figure again: gnuplot %s.gp\n", name);
     write_style(file, chart);
     (void)snprintf(terminal, sizeof terminal,
-                   "svg size %d,%d dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'", WIDTH, HEIGHT);
+                   "svg size %d,%d dynamic enhanced font '" SCREE_FONT ",13' background rgb 'white'", WIDTH, HEIGHT);
     write_output(file, name, "svg", terminal);
     write_plot(file, chart, name);
     const int asked = scree_page_chosen_pixels();
     const double scale = asked > 0 ? asked / (double)WIDTH : PNG_SCALE;
     (void)snprintf(terminal, sizeof terminal,
-                   "pngcairo size %.0f,%.0f enhanced font 'DejaVu Sans,10' fontscale %.4g linewidth %.4g",
+                   "pngcairo size %.0f,%.0f enhanced font '" SCREE_FONT ",10' fontscale %.4g linewidth %.4g",
                    WIDTH * scale, HEIGHT * scale, scale, scale);
     write_output(file, name, "png", terminal);
     fputs("replot\nset output\n", file);

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "io/run_directory.h"
+#include "view/font.h"
 #include "view/png_file.h"
 
 #include <scree/scree.h>
@@ -126,7 +127,7 @@ static void select_font(cairo_t *cairo, scree_text_style style)
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
     cairo_set_font_options(cairo, options);
     cairo_font_options_destroy(options);
-    cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+    cairo_select_font_face(cairo, SCREE_FONT, CAIRO_FONT_SLANT_NORMAL,
                            style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo, style.size);
 }

@@ -2,6 +2,7 @@
 /// others from being drawn: the first failure is what scree_plot returns at the end.
 #include "view/plot.h"
 
+#include "view/font.h"
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -187,6 +188,13 @@ static void draw_figure(const scree_plot_run *run, const scree_figure_job *job, 
     report(d, job->name, job->path, status, &error);
 }
 
+void scree_plot_warn(void (*message)(void *user, const char *line), void *user)
+{
+    char line[300] = "warning: ";
+    const size_t head = strlen(line);
+    if (message && scree_font_missing(line + head, sizeof line - head)) message(user, line);
+}
+
 scree_status scree_plot_make_folder(scree_plot_run *run, scree_error *error)
 {
     scree_status status = scree_path_join(run->figures, sizeof run->figures - SCREE_FIGURE_NAME - 2, run->directory,
@@ -208,6 +216,7 @@ scree_status scree_plot_draw(const char *directory, const char *names, void (*me
     if (!status) {
         if (run.series_status) report(&d, SCREE_FILE_SERIES, NULL, run.series_status, &run.series_error);
         if (run.snapshot_status) report(&d, SCREE_FILE_RUN, NULL, run.snapshot_status, &run.snapshot_error);
+        scree_plot_warn(message, user);
         visit_figures(&run, draw_figure, &d);
         status = d.status;
         if (status && error) *error = d.error;

@@ -277,6 +277,7 @@ scree_status scree_plot_chart(const char *directory, const scree_plot_columns *c
     if (!status) status = draw(&chart, path, error);
     if (!status && message) {
         (void)snprintf(said, sizeof said, "%s.svg", path);
+        scree_plot_warn(message, user);
         message(user, said);
     }
     if (chart.c) scree_case_free(chart.c);

@@ -302,6 +302,7 @@ scree_status scree_plot_field(const char *directory, const scree_plot_scene *sce
     }
     if (!status && message) {
         (void)snprintf(said, sizeof said, "%s.svg", path);
+        scree_plot_warn(message, user);
         message(user, said);
     }
     scree_asked_close(&asked);

@@ -136,6 +136,7 @@ scree_status scree_plot_movie(const char *directory, const scree_plot_scene *sce
     if (!status) status = measure(&m, error);
     if (!status) status = draw(&m, error);
     if (!status) status = join(&m, why, sizeof why, error);
+    if (!status) scree_plot_warn(message, user);
     if (!status) status = tell(&m, why, message, user);
     scree_asked_close(&m.asked);
     scree_folder_lock_release(&taken);

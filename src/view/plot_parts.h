@@ -37,6 +37,9 @@ void scree_plot_run_close(scree_plot_run *run);
 scree_status scree_plot_refuse(scree_error *error, const char *option, const char *accepted, const char *message,
                                const char *name);
 
+/// Tells `message`, which may be NULL, a warning of a missing font.
+void scree_plot_warn(void (*message)(void *user, const char *line), void *user);
+
 /// Makes the folder of the figures; run->figures leaves room for the name of one behind it.
 scree_status scree_plot_make_folder(scree_plot_run *run, scree_error *error) SCREE_MUST_USE;
 /// Keeps others from writing into the run. Without a folder there is no run, and reading says so.

@@ -147,6 +147,15 @@ expect 0 'solid-fraction-profile.svg$' "$scree" plot out --only solid-fraction-p
 awk -F, -v whole="$("$scree" get out solid_fraction)" 'NR > 1 { sum += $1; rows++ } END { exit !(rows > 4 && sum / rows > 0.92 * whole && sum / rows < 1.08 * whole) }' \
     out/figures/solid-fraction-profile.csv || complain "mean of the profile of the solid fraction against that of the sample"
 
+# --- plot: without the font of figures, in each way to a figure
+printf '<?xml version="1.0"?>\n<fontconfig><cachedir>%s/fonts</cachedir></fontconfig>\n' "$PWD" >no-fonts.xml
+no_fonts='warning: figures have no text, for no font is installed \(Debian package fonts-dejavu-core\)'
+for way in "--only stress-ratio" "--y height" "--scene displacement" "--movie displacement"; do
+    # shellcheck disable=SC2086 # words
+    expect 0 "$no_fonts" env FONTCONFIG_FILE="$PWD/no-fonts.xml" "$scree" plot out $way
+done
+expect 0 "$no_fonts" env FONTCONFIG_FILE="$PWD/no-fonts.xml" "$scree" run out/case.yaml -o no-fonts
+
 # --- plot: charts and scenes of one's own
 expect 0 '^out/figures/stress_axial_plates-stress_lateral_applied-over-axial_strain-compress.svg$' \
     "$scree" plot out --x axial_strain --y stress_axial_plates,stress_lateral_applied --stage compress
