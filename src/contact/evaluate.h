@@ -105,6 +105,15 @@ SCREE_INLINE void contact_moments(int dimension, vector along, lanes factor, vec
         for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);
 }
 
+/// An increment of the ledger [J] in quanta; of laws of areas, whose bounds of energies are no strict ones, cut where
+/// it would be no number any more.
+SCREE_INLINE lanes_bits energy_quanta(variant v, lanes energy, double inverse_quantum)
+{
+    const lanes most = lanes_all(ldexp(1, SCREE_FIXED_RANGE_BITS) / inverse_quantum);
+    if (law_traits(v)->areas) energy = lanes_at_most(lanes_at_least(energy, -most), most);
+    return lanes_fixed(energy, inverse_quantum);
+}
+
 /// What the law says, as it acts on the bodies: g times as much where the overlap has a gain g.
 SCREE_INLINE law_force contact_law(variant v, const law_constants *constants, const law_settings *settings,
                                    const kinematics *m, lanes_bits touching, const law_memory *before,
@@ -156,9 +165,9 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         q.torque_second = quanta_sum(q.torque_second, quanta_opposite(couple));
     }
     if (v.ledger) {
-        q.damping = lanes_fixed(f.damping, scale->inverse_damping);
-        q.friction = lanes_fixed(f.friction, scale->inverse_friction);
-        q.stiffness = lanes_fixed(f.stiffness, scale->inverse_friction);
+        q.damping = energy_quanta(v, f.damping, scale->inverse_damping);
+        q.friction = energy_quanta(v, f.friction, scale->inverse_friction);
+        q.stiffness = energy_quanta(v, f.stiffness, scale->inverse_friction);
     }
     return q;
 }

@@ -86,6 +86,8 @@ typedef struct kinematics {
     lanes chord;                      ///< m,  first body moves along -n; lengths l of R 2.31, and the same of the radii
     lanes length, rest_length;        ///< m,  of equal area;
     lanes reduced_mass_along;         ///< kg, of the tangential motion at the point
+    vector passing;                   ///< m/s, of the first centre past the second, and
+    lanes spin_first, spin_second;    ///< rad/s, both of n - 1/2, of geometries with `areas`
     lanes gain, gain_middle;          ///< 1, |gradient of the overlap|, of geometries with `gains`; middle of the step
     vector tilted;                    ///< rad, phi; zero against a plane
     lanes half;                       ///< 1, half of L / L(n - 1), of pairs in space

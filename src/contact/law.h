@@ -2,8 +2,9 @@
 ///   law_force NAME(variant, constants, settings, motion, touching, before, after)
 /// in a header of its own, NAME.h, with its traits (NAME_traits, one for each value of the option) and its kernels
 /// (NAME_KERNELS, row(NAME, option, one or many materials)); its module, with its descriptor (model/law.h), is
-/// scree_module_NAME in NAME.c. module/table.h lists them. Lanes that do not touch come out zero, in the ledger too (but
-/// for what a contact that opens held): one without a pair repeats another pair, overlap and all, without its memory.
+/// scree_module_NAME in NAME.c. module/table.h lists them. Lanes that do not touch come out zero, in the ledger too
+/// (but for what a contact that opens held): one without a pair repeats another pair, overlap and all, without its
+/// memory.
 #ifndef SCREE_CONTACT_LAW_H
 #define SCREE_CONTACT_LAW_H
 

@@ -105,6 +105,15 @@ SCREE_INLINE kinematics outlines_place(const scree_overlap *overlap, double leng
     return m;
 }
 
+/// Velocities of n - 1/2, for the work that a force at its own pose has done. velocity: of the second centre relative
+/// to the first. The line between the centres is that from lever to lever, also where nothing is shared.
+SCREE_INLINE void outlines_pass(kinematics *m, const double velocity[2], const double spin[2])
+{
+    m->passing = (vector){-velocity[0], -velocity[1], 0};
+    m->spin_first = spin[0];
+    m->spin_second = spin[1];
+}
+
 /// r^2 / I of a body [1/kg]: what its turning adds to the mobility of the point.
 SCREE_INLINE double outlines_turning(const bodies *body, const double arm[2])
 {
@@ -116,10 +125,14 @@ SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, 
 {
     const scree_polygon polygon[2] = {outlines_polygon(first), outlines_polygon(second)};
     const double apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
+    const double velocity[2] = {second->velocity.x - first->velocity.x, second->velocity.y - first->velocity.y};
+    const double spin[2] = {first->spin.x, second->spin.x};
     scree_overlap overlap;
     if (!outlines_meet(polygon, apart, first->hint, &overlap)) {
         kinematics none = {.normal = {1, 0, 0}, .overlap = 0, .chord = 1, .length = 1, .reduced_mass = 1};
         none.reduced_mass_along = none.rest_length = none.reduced_radius = 1;
+        none.lever_second = (vector){-apart[0], -apart[1], 0};
+        outlines_pass(&none, velocity, spin);
         return none;
     }
     kinematics m = outlines_place(&overlap, scree_overlap_length(&overlap));
@@ -127,8 +140,7 @@ SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, 
     m.reduced_mass = first->mass * second->mass / (first->mass + second->mass);
     m.reduced_mass_along =
         1 / (1 / m.reduced_mass + (outlines_turning(first, overlap.arm[0]) + outlines_turning(second, overlap.arm[1])));
-    const double velocity[2] = {second->velocity.x - first->velocity.x, second->velocity.y - first->velocity.y};
-    const double spin[2] = {first->spin.x, second->spin.x};
+    outlines_pass(&m, velocity, spin);
     if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
     kinematics_from_levers(dimension, &m, first, second, step);
     return m;
@@ -146,9 +158,10 @@ SCREE_INLINE kinematics outlines_beside(const bodies *body, const double normal[
     m.normal = (vector){normal[0], normal[1], normal[2]};
     m.rest_length = m.reduced_radius = polygon.radius;
     m.reduced_mass = m.reduced_mass_along = body->mass;
+    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
+    outlines_pass(&m, velocity, spin);
     if (!meet || overlap.flags) return m;
     m.reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap.arm[0]));
-    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
     if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
     m.tilted.x = 0; // the normal is that of the wall
     return m;
@@ -185,9 +198,10 @@ SCREE_INLINE kinematics outlines_against(const bodies *body, const scree_polygon
     if (meet) m = outlines_place(&overlap, scree_overlap_wall_length(&overlap));
     m.rest_length = m.reduced_radius = polygon[0].radius;
     m.reduced_mass = m.reduced_mass_along = body->mass;
+    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
+    outlines_pass(&m, velocity, spin);
     if (!meet || overlap.flags) return m;
     m.reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap.arm[0]));
-    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
     if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
     return m;
 }

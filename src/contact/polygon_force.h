@@ -10,10 +10,15 @@
 /// (slider.h), and slip has the sign with which a rigid rotation of the pair gives none. E is young_modulus times the
 /// thickness [N/m]: R's modulus of the plane. Static and dynamic friction are one; there is no cohesion.
 ///
-/// Ledger: damping and friction as of `linear`; `stiffness` is what the elastic force gave that is not stored:
-///   W(n) - W(n-1) - (f_e(n-1) + f_e(n))/2 a dt
-/// of the energy W that the law says the contact has. Where f_e is its gradient that is of third order in the step, and
-/// not accumulated.
+/// Ledger. In a leapfrog scheme the forces of n - 1 and n have each done half of their power at v(n - 1/2) times dt,
+/// each along its normal and at its point. A chord may jump where an edge turns through parallel, so neither is taken
+/// from the rates of the middle of the step: the contact remembers normal and lever of its last force, and with the
+/// ways a', s' of n - 1 and a, s of n the work on dashpots is (g(n-1) a' + g(n) a)/2, and `stiffness` is what the
+/// forces gave that is not stored or dissipated,
+///   W(n) - W(n-1) - (f_e(n-1) a' + f_e(n) a)/2,
+/// of the energy W that the law says the contact has, and the same of the tangential force, third order in the step.
+/// Then the balance closes to round-off. Where f_e is the gradient of W it is the error of the step alone, and not
+/// accumulated.
 #ifndef SCREE_CONTACT_POLYGON_FORCE_H
 #define SCREE_CONTACT_POLYGON_FORCE_H
 
@@ -38,9 +43,56 @@ typedef struct scree_polygon_material {
 
 #define POLYGON_TRAITS                                                                                                 \
     {                                                                                                                  \
-        .remembers = true, .for_ledger = {0x6, 0x6}, .keeps_last_force = {true, true}, .displacement = true,           \
+        .remembers = true, .for_ledger = {0xe, 0xe}, .keeps_last_force = {true, true}, .displacement = true,           \
         .wide = true, .areas = true                                                                                    \
     }
+
+/// What a direction is kept as, one number in -2 .. 2: the way round the square |x| + |y| = 1 from (1, 0), which needs
+/// no function but a division.
+SCREE_INLINE lanes direction_fold(vector n)
+{
+    return lanes_with_sign(1.0 - n.x / (lanes_abs(n.x) + lanes_abs(n.y)), n.y);
+}
+
+SCREE_INLINE vector direction_unfold(lanes kept)
+{
+    const lanes x = 1.0 - lanes_abs(kept), y = lanes_with_sign(1.0 - lanes_abs(x), kept);
+    const lanes inverse = 1.0 / lanes_root(x * x + y * y);
+    return (vector){x * inverse, y * inverse, x};
+}
+
+/// The pose at which the force of now acts: normal and lever of the first body.
+SCREE_INLINE void polygon_remember(const kinematics *m, lanes_bits touching, law_memory *after)
+{
+    after->value[3] = lanes_keep(touching, direction_fold(m->normal));
+    after->last[2] = lanes_keep(touching, m->lever_first.x);
+    after->last[3] = lanes_keep(touching, m->lever_first.y);
+}
+
+/// How far the bodies move along a force and its tangent in the step, at the pose at which it acts [m].
+typedef struct polygon_ways {
+    lanes approach, slip;
+} polygon_ways;
+
+SCREE_INLINE polygon_ways polygon_ways_at(const kinematics *m, vector n, vector first, vector second, double step)
+{
+    const lanes x = m->passing.x - m->spin_first * first.y + m->spin_second * second.y;
+    const lanes y = m->passing.y + m->spin_first * first.x - m->spin_second * second.x;
+    return (polygon_ways){-step * (x * n.x + y * n.y), step * (y * n.x - x * n.y)};
+}
+
+SCREE_INLINE polygon_ways polygon_ways_now(const kinematics *m, double step)
+{
+    return polygon_ways_at(m, m->normal, m->lever_first, m->lever_second, step);
+}
+
+SCREE_INLINE polygon_ways polygon_ways_last(const kinematics *m, const law_memory *before, double step)
+{
+    const vector first = {.x = before->last[2], .y = before->last[3]};
+    const vector second = {.x = first.x + (m->lever_second.x - m->lever_first.x) - step * m->passing.x,
+                           .y = first.y + (m->lever_second.y - m->lever_first.y) - step * m->passing.y};
+    return polygon_ways_at(m, direction_unfold(before->value[3]), first, second, step);
+}
 
 /// The force of a contact whose elastic part is `elastic` [N] and whose energy is `stored` [J].
 SCREE_INLINE law_force polygon_force(const law_constants *constants, const law_settings *settings, const kinematics *m,
@@ -64,14 +116,20 @@ SCREE_INLINE law_force polygon_force(const law_constants *constants, const law_s
         slider_move(1, &slipped, m->slip, m->dashpot_slip, settings->step, tangential, viscosity, cap, touching);
     *after = (law_memory){.value = {slip.now.displacement.x, elastic, stored, none},
                           .last = {damping, slip.now.dashpot.x, none, none}};
-    const lanes way = m->approach * settings->step;
+    polygon_remember(m, touching, after);
+    const polygon_ways now = polygon_ways_now(m, settings->step), last = polygon_ways_last(m, before, settings->step);
+    const slider_memory *held = &slipped;
+    const lanes resisted = (held->spring.x + held->dashpot.x) * last.slip + slip.resistance.x * now.slip;
+    const lanes spring = half * held->spring.x * held->displacement.x;
+    const lanes tangential_work = half * (slip.damping + slip.friction) + slip.elastic - spring;
     return (law_force){
         .normal = normal,
         .tangential = vector_opposite(1, slip.resistance),
         .couple = vector_none(),
-        .damping = half * ((damping + before->last[0]) * way + slip.damping),
+        .damping = half * (before->last[0] * last.approach + damping * now.approach + slip.damping),
         .friction = half * slip.friction,
-        .stiffness = stored - before->value[2] - half * (elastic + before->value[1]) * way,
+        .stiffness = stored - before->value[2] - half * (before->value[1] * last.approach + elastic * now.approach) +
+                     (tangential_work - half * resisted),
         .elastic_normal = stored,
         .elastic_tangential = slip.elastic,
     };

@@ -48,7 +48,13 @@ scree_status scree_polygon_told(const scree_context *context, size_t index, doub
                         "elastic part of the normal force of the last step", .only_dimension = 2),                     \
         SCREE_REMEMBERS(law, history, 2, 1, "elastic_normal_energy", "J",                                              \
                         "energy that the contact held in the last step", .only_dimension = 2),                         \
+        SCREE_REMEMBERS(law, history, 3, 1, "last_direction", "1",                                                     \
+                        "direction of the normal force of the last step, as a way round a square, -2 to 2",            \
+                        .only_dimension = 2),                                                                          \
         SCREE_REMEMBERS(law, last_force, 0, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),                       \
-        SCREE_REMEMBERS(law, last_force, 1, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2)
+        SCREE_REMEMBERS(law, last_force, 1, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),                   \
+        SCREE_REMEMBERS(law, last_force, 2, 2, "last_lever", "m",                                                      \
+                        "from the centre of the first body to where the force of the last step acted",                 \
+                        .only_dimension = 2)
 
 #endif

@@ -5,7 +5,7 @@
 /// Falls asleep: what touches something, is not prescribed, and has for `window` been quiet: its resultant force was
 /// below `force` times its weight, its resultant torque below that times its radius, and its surface so slow that it
 /// would have gone no farther than `motion` radii in the window. It is looked at every FALL_EVERY steps. Its velocity
-/// is taken away, and the kinetic energy accumulated in the ledger.
+/// is taken away, and the kinetic energy accumulated in the ledger; so is what a scheme counts of one that wakes.
 ///
 /// Wakes: what something that is awake, a wall or a load acts on so that the mean of its resultant (with its weight and
 /// what others that sleep exert) over the last window, fading exponentially, exceeds `wake` times its weight: it would
@@ -71,15 +71,6 @@ static scree_status make_room(scree_state *state, scree_error *error)
         if (scree_module_sleep.fields[k].rows == SCREE_ROWS_BODIES)
             status = scree_state_begin_field(state, &scree_module_sleep.fields[k], error);
     return status;
-}
-
-/// Gravity of the last step; all wake when it has changed.
-static void follow_gravity(const scree_context *c)
-{
-    scree_sleep *sleep = scree_sleep_of(c->state);
-    if (memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) == 0) return;
-    scree_sleep_end(c->state);
-    memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
 }
 
 // ---- who ----------------------------------------------------------------------------------------------------------
@@ -191,10 +182,11 @@ static void add_to_one(scree_state *state, uint32_t row, const contact_quanta *q
     resting->contacts += minus ? -1 : 1;
 }
 
-/// Dashpots are at rest among those that sleep.
-static void forget_dashpots(const memory_rows *memory)
+/// Dashpots are at rest among those that sleep. In the plane two numbers are theirs; what others a law remembers of its
+/// last force stays.
+static void forget_dashpots(int dimension, const memory_rows *memory)
 {
-    if (memory->last_force) *memory->last_force = (scree_last_force){{0}};
+    for (int k = 0; k < (dimension == 2 ? 2 : 4) && memory->last_force; k++) memory->last_force->value[k] = 0;
     if (memory->rolling) memset(memory->rolling->last, 0, sizeof memory->rolling->last);
 }
 
@@ -210,7 +202,7 @@ static void move_pair(const scree_context *c, size_t p, bool rests)
     const contact_evaluation e = contact_evaluate_again(c->model, state, true, &one, &other, NULL, &memory);
     add_to_one(state, first, &e.quanta, true, !rests);
     add_to_one(state, second, &e.quanta, false, !rests);
-    if (rests) forget_dashpots(&memory);
+    if (rests) forget_dashpots(state->dimension, &memory);
 }
 
 static bool slept(uint8_t mark)
@@ -242,7 +234,7 @@ static void move_group(const scree_context *c, const contact_wall_group *group, 
         if (!contact_standing_wall(c->model, c->state, c->work, group, k, &exerted)) continue;
         const memory_rows memory = contact_memory_of(c->work, CONTACT_ELEMENT, group->touches.touch[k].pair);
         add_to_one(c->state, group->row, &exerted, true, !rests);
-        if (rests) forget_dashpots(&memory);
+        if (rests) forget_dashpots(c->state->dimension, &memory);
     }
 }
 
@@ -271,20 +263,54 @@ static void stop(scree_state *state, size_t row)
     }
 }
 
+/// Kinetic energy v(n - 1/2) . v(n + 1/2) with which one that sleeps comes back into the step: none but that of a
+/// scheme whose velocity of n is that of rest, so that the two are opposite [J].
+static double kinetic_of_waking(const scree_context *c, size_t row)
+{
+    const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
+    const double lead = integrator->velocity_lead, step = c->state->step_size;
+    scree_vector force, torque;
+    if (integrator->velocity) return 0;
+    scree_body_force(c->model, c->state, row, force, torque);
+    return -0.5 * lead * (1 - lead) * step * step *
+           (scree_dot(force, force) / scree_body_mass(c->state, row) +
+            scree_dot(torque, torque) / scree_body_inertia(c->state, row));
+}
+
+/// What a body has less of it at the end of this change [J].
+static double kinetic_taken(const scree_context *c, size_t row, bool all_wake)
+{
+    const uint8_t mark = scree_sleep_of(c->state)->asleep[row];
+    double translation, rotation;
+    if (mark == WAKES || (all_wake && mark == ASLEEP)) return -kinetic_of_waking(c, row);
+    if (mark != FALLS) return 0;
+    scree_body_kinetic(c->model, c->state, row, &translation, &rotation);
+    return translation + rotation;
+}
+
+static void book_taken(const scree_context *c, bool all_wake)
+{
+    scree_state *state = c->state;
+    scree_integer_sum taken = {0};
+    while (scree_comm_sum_next(state, &taken, 1))
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&taken, kinetic_taken(c, row, all_wake));
+    scree_sleep_of(state)->taken += scree_integer_sum_total(&taken);
+    state->ledger.turnover += fabs(scree_integer_sum_total(&taken));
+}
+
+static void wake_all(const scree_context *c)
+{
+    if (scree_sleep_of(c->state)->count > 0) book_taken(c, true);
+    scree_sleep_end(c->state);
+}
+
 /// Rows that are marked, before pairs are moved: velocities of those that fall, sums of those that wake.
 static void begin_change(const scree_context *c)
 {
     scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
     const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
-    scree_integer_sum taken = {0};
-    while (scree_comm_sum_next(state, &taken, 1))
-        for (size_t row = 0; row < state->count; row++) {
-            if (sleep->asleep[row] != FALLS) continue;
-            double translation, rotation;
-            scree_body_kinetic(c->model, state, row, &translation, &rotation);
-            scree_integer_sum_add(&taken, translation + rotation);
-        }
+    book_taken(c, false);
     for (size_t row = 0; row < state->count; row++) {
         if (sleep->asleep[row] == FALLS)
             stop(state, row);
@@ -292,8 +318,6 @@ static void begin_change(const scree_context *c)
             scree_sleep_add_resting(state, row);
         if (integrator->begin_anew && sleep->asleep[row] > ASLEEP) integrator->begin_anew(state, row);
     }
-    sleep->taken += scree_integer_sum_total(&taken);
-    state->ledger.turnover += fabs(scree_integer_sum_total(&taken));
 }
 
 static void end_change(scree_state *state)
@@ -332,6 +356,15 @@ static void change(const scree_context *c)
     contact_sum_resting_loads(c->model, state, c->work);
 }
 
+/// Gravity of the last step; all wake when it has changed.
+static void follow_gravity(const scree_context *c)
+{
+    scree_sleep *sleep = scree_sleep_of(c->state);
+    if (memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) == 0) return;
+    wake_all(c);
+    memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
+}
+
 // ---- the pass -----------------------------------------------------------------------------------------------------
 
 static scree_status decide(const scree_context *c, scree_error *error)
@@ -347,7 +380,7 @@ static scree_status decide(const scree_context *c, scree_error *error)
     if (!status && sleep->asleep && (!sleep->listed || sleep->bodies != state->changes))
         status = scree_neighbours_refresh(c->model, state, c->work, error);
     if (!may_sleep(c, &limits)) {
-        scree_sleep_end(state);
+        wake_all(c);
         return status;
     }
     if (!status) status = make_room(state, error);
@@ -373,7 +406,7 @@ static bool in_use(const scree_context *c)
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     (void)error;
-    scree_sleep_end(c->state);
+    wake_all(c);
     return SCREE_OK;
 }
 
@@ -409,7 +442,7 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
 
 static const scree_result results[] = {
     {"mean_awake", "1", "mean number of particles that were awake while some might sleep"},
-    {"sleep_taken", "J", "kinetic energy of particles when they fell asleep"},
+    {"sleep_taken", "J", "kinetic energy of particles when they fell asleep, less that of those that woke"},
 };
 
 static scree_status tell(const scree_context *c, size_t index, double *value, scree_error *error)
@@ -449,7 +482,8 @@ static const scree_field fields[] = {
     ONE(wall_torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of the torques on walls", SCREE_RANGE(0, DBL_MAX)),
     ONE(gravity, SCREE_FIELD_DOUBLE, 3, "m/s2", "gravity of the last step in which bodies might sleep"),
     ONE(overlap, SCREE_FIELD_DOUBLE, 1, "m", "bound of the overlaps of those that sleep", SCREE_RANGE(0, DBL_MAX)),
-    ONE(taken, SCREE_FIELD_DOUBLE, 1, "J", "kinetic energy of bodies when they fell asleep"),
+    ONE(taken, SCREE_FIELD_DOUBLE, 1, "J",
+        "kinetic energy of bodies when they fell asleep, less that of those that woke"),
     ONE(awake_steps, SCREE_FIELD_UINT64, 1, "1", "steps of all bodies that were awake, since some might sleep"),
     ONE(steps, SCREE_FIELD_UINT64, 1, "1", "steps since then"),
     DERIVED(count, "bodies that sleep"),

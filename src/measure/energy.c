@@ -33,6 +33,7 @@
 #include "base/integer_sum.h"
 #include "comm/comm.h"
 #include "integrate/integrate.h"
+#include "state/sleep.h"
 
 #include <float.h>
 #include <math.h>
@@ -109,7 +110,8 @@ void scree_energy_change_step(const scree_model *model, scree_state *state, doub
     scree_integer_sum sum = {0};
     if (scree_integrator_get(model->scheme)->velocity) return;
     while (scree_comm_sum_next(state, &sum, 1))
-        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, inertial_power(model, state, row));
+        for (size_t row = 0; row < state->count; row++)
+            if (!scree_body_sleeps(state, row)) scree_integer_sum_add(&sum, inertial_power(model, state, row));
     state->ledger.scheme += 0.125 * (before * before - after * after) * scree_integer_sum_total(&sum);
 }
 

@@ -36,7 +36,7 @@ typedef struct scree_sleep {
     double torque_unit;   ///< N m, the same
     double gravity[3];    ///< m/s2, of the last step
     double overlap;       ///< m, no contact of two that sleep has a larger one
-    double taken;         ///< J, kinetic energy of bodies when they fell asleep
+    double taken;         ///< J, kinetic energy of bodies when they fell asleep, less that of those that woke
     uint64_t awake_steps; ///< steps of all bodies that were awake, since the first could sleep
     uint64_t steps;       ///< steps since then
     uint64_t count;       ///< bodies that sleep (derived)

@@ -180,7 +180,8 @@ static void a_potential_keeps_its_energy(void **unused)
     assert_true(share == 0);
 }
 
-/// The law without a potential has its row; with it the balance closes, with dashpots and friction, too.
+/// The law without a potential has its row; with it the balance closes to round-off, with dashpots and friction, too,
+/// and whatever the step.
 static void the_balance_of_the_other_law_has_a_row(void **unused)
 {
     (void)unused;
@@ -192,9 +193,8 @@ static void the_balance_of_the_other_law_has_a_row(void **unused)
     const double third = residual_of(gas_text, damped, 1, &share[2]);
     print_message("residual %.3g, with a quarter of the step %.3g (law %.2g); damped %.3g (law %.2g)\n", first, second,
                   share[1], third, share[2]);
-    assert_true(second < first / 4);
-    assert_true(second < 1e-4 && third < 6e-5);
-    assert_true(share[1] > 30 * second);
+    assert_true(first < 1e-8 && second < 1e-8 && third < 1e-8);
+    assert_true(share[1] > 1e-4);
 }
 
 /// A pair in free space: linear and angular momentum, whatever the law does.

@@ -250,6 +250,13 @@ static void the_balance_closes_beside_moving_walls(void **unused)
                   moving[0], moving[1], work[1], still[0], still[1], damped, work[4]);
     assert_true(moving[0] < 3e-4 && moving[1] < moving[0] / 5 && still[0] < 3e-4 && still[1] < still[0] / 5);
     assert_true(damped < 1e-4 && work[2] == 0 && fabs(work[1]) > 1e-3 && fabs(work[4]) > 1e-3);
+    // With the row of the other law what is left is the way of the wall, which is no straight one within a step.
+    const char *const rows[] = {"contact.law=polygon_overlap", "stages.1.walls=stand"};
+    const double standing_row = residual_of(rows, COUNT_OF(rows), &work[0]);
+    const double moving_row = residual_of(rows, 1, &work[0]);
+    print_message("with the row of the law: standing %.3g, moving %.3g (work %.3g J)\n", standing_row, moving_row,
+                  work[0]);
+    assert_true(standing_row < 1e-8 && moving_row < 1e-5 && fabs(work[0]) > 1e-4);
 }
 
 /// A grain between a wall and the same wall driven: seen from the wall a push with constant velocity is an impact on a

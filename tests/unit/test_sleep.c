@@ -152,7 +152,7 @@ static void the_balance_closes(void **unused)
             close_both(&s, c);
         }
         print_message("residual %.2g, all awake %.2g\n", worst[0], worst[1]);
-        assert_true(worst[0] < fmax(3 * worst[1], 3e-5));
+        assert_true(worst[0] < fmax(2 * worst[1], 1e-7));
     }
 }
 
