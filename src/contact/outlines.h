@@ -146,6 +146,19 @@ SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, 
     return m;
 }
 
+/// What a wall as the second body does not add to: its radius and mass are infinite. overlap: NULL, nothing is shared.
+SCREE_INLINE void outlines_past_wall(kinematics *m, const bodies *body, double radius, const scree_overlap *overlap,
+                                     double step)
+{
+    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
+    m->rest_length = m->reduced_radius = radius;
+    m->reduced_mass = m->reduced_mass_along = body->mass;
+    outlines_pass(m, velocity, spin);
+    if (!overlap || overlap->flags) return;
+    m->reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap->arm[0]));
+    if (step > 0) outlines_move(m, overlap, velocity, spin, step);
+}
+
 /// The velocity of the body is that in the frame of the wall.
 SCREE_INLINE kinematics outlines_beside(const bodies *body, const double normal[3], double distance, double step)
 {
@@ -156,13 +169,7 @@ SCREE_INLINE kinematics outlines_beside(const bodies *body, const double normal[
     kinematics m = {.overlap = 0, .chord = 1, .length = 1};
     if (meet) m = outlines_place(&overlap, scree_overlap_wall_length(&overlap));
     m.normal = (vector){normal[0], normal[1], normal[2]};
-    m.rest_length = m.reduced_radius = polygon.radius;
-    m.reduced_mass = m.reduced_mass_along = body->mass;
-    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
-    outlines_pass(&m, velocity, spin);
-    if (!meet || overlap.flags) return m;
-    m.reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap.arm[0]));
-    if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
+    outlines_past_wall(&m, body, polygon.radius, meet ? &overlap : NULL, step);
     m.tilted.x = 0; // the normal is that of the wall
     return m;
 }
@@ -196,13 +203,7 @@ SCREE_INLINE kinematics outlines_against(const bodies *body, const scree_polygon
     const bool meet = outlines_meet(polygon, apart, &hint, &overlap);
     kinematics m = {.normal = {1, 0, 0}, .overlap = 0, .chord = 1, .length = 1};
     if (meet) m = outlines_place(&overlap, scree_overlap_wall_length(&overlap));
-    m.rest_length = m.reduced_radius = polygon[0].radius;
-    m.reduced_mass = m.reduced_mass_along = body->mass;
-    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
-    outlines_pass(&m, velocity, spin);
-    if (!meet || overlap.flags) return m;
-    m.reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap.arm[0]));
-    if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
+    outlines_past_wall(&m, body, polygon[0].radius, meet ? &overlap : NULL, step);
     return m;
 }
 

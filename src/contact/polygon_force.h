@@ -118,9 +118,8 @@ SCREE_INLINE law_force polygon_force(const law_constants *constants, const law_s
                           .last = {damping, slip.now.dashpot.x, none, none}};
     polygon_remember(m, touching, after);
     const polygon_ways now = polygon_ways_now(m, settings->step), last = polygon_ways_last(m, before, settings->step);
-    const slider_memory *held = &slipped;
-    const lanes resisted = (held->spring.x + held->dashpot.x) * last.slip + slip.resistance.x * now.slip;
-    const lanes spring = half * held->spring.x * held->displacement.x;
+    const lanes resisted = (slipped.spring.x + slipped.dashpot.x) * last.slip + slip.resistance.x * now.slip;
+    const lanes spring = half * slipped.spring.x * slipped.displacement.x;
     const lanes tangential_work = half * (slip.damping + slip.friction) + slip.elastic - spring;
     return (law_force){
         .normal = normal,

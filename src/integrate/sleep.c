@@ -278,30 +278,35 @@ static double kinetic_of_waking(const scree_context *c, size_t row)
 }
 
 /// What a body has less of it at the end of this change [J].
-static double kinetic_taken(const scree_context *c, size_t row, bool all_wake)
+static double kinetic_taken(const scree_context *c, size_t row)
 {
     const uint8_t mark = scree_sleep_of(c->state)->asleep[row];
     double translation, rotation;
-    if (mark == WAKES || (all_wake && mark == ASLEEP)) return -kinetic_of_waking(c, row);
+    if (mark == WAKES) return -kinetic_of_waking(c, row);
     if (mark != FALLS) return 0;
     scree_body_kinetic(c->model, c->state, row, &translation, &rotation);
     return translation + rotation;
 }
 
-static void book_taken(const scree_context *c, bool all_wake)
+static void book_taken(const scree_context *c)
 {
     scree_state *state = c->state;
     scree_integer_sum taken = {0};
     while (scree_comm_sum_next(state, &taken, 1))
-        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&taken, kinetic_taken(c, row, all_wake));
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&taken, kinetic_taken(c, row));
     scree_sleep_of(state)->taken += scree_integer_sum_total(&taken);
     state->ledger.turnover += fabs(scree_integer_sum_total(&taken));
 }
 
 static void wake_all(const scree_context *c)
 {
-    if (scree_sleep_of(c->state)->count > 0) book_taken(c, true);
-    scree_sleep_end(c->state);
+    scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    if (sleep->count == 0) return;
+    for (size_t row = 0; row < state->count; row++)
+        if (sleep->asleep[row]) sleep->asleep[row] = WAKES;
+    book_taken(c);
+    scree_sleep_end(state);
 }
 
 /// Rows that are marked, before pairs are moved: velocities of those that fall, sums of those that wake.
@@ -310,7 +315,7 @@ static void begin_change(const scree_context *c)
     scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
     const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
-    book_taken(c, false);
+    book_taken(c);
     for (size_t row = 0; row < state->count; row++) {
         if (sleep->asleep[row] == FALLS)
             stop(state, row);
