@@ -307,7 +307,9 @@ static const scree_verb run_verbs[] = {
         .text =
             "Runs every member of a sweep (a combination of parameters and a seed) as a process of its own, as many at "
             "once as there are cores, and then collects them: `members.csv` (a row a member), `table.csv` (a row a "
-            "point of the grid, means with confidence intervals), `curves/` (averaged curves) and `figures/`.\n\n"
+            "point of the grid, means with confidence intervals), `curves/` (averaged curves) and `figures/`. Members "
+            "have "
+            "figures of their own where the sweep sets output.figures.\n\n"
             "A second call does what is missing: finished members are left as they are, interrupted ones are "
             "continued from their checkpoints, failed ones stay failed unless `--retry` is given. A member that fails "
             "does not keep the others from being run; the exit status is then 3. The first interrupt stops all members "

@@ -15,8 +15,33 @@ scree_loading_rows scree_loading_rows_find(const scree_series *series)
     return rows;
 }
 
-/// The end of the branch that begins with the first of these rows: behind the row at which the strain turns, by more than
-/// a hundredth of the window.
+static double range_of(const double *strain, scree_loading_rows rows)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = rows.first; k < rows.last && strain; k++) {
+        low = fmin(low, strain[k]);
+        high = fmax(high, strain[k]);
+    }
+    return high > low ? high - low : 0;
+}
+
+scree_loading_path scree_loading_path_find(const scree_series *series)
+{
+    scree_loading_path path = {scree_loading_rows_find(series), scree_series_get(series, "axial_strain"), NULL};
+    const double *flat = scree_series_get(series, "strain_yy"), *solid = scree_series_get(series, "strain_zz"),
+                 *shear = scree_series_get(series, "strain_shear");
+    scree_loading_rows all = {0, path.rows.last};
+    while (flat && all.first < path.rows.first && !isfinite(flat[all.first])) all.first++;
+    if (!flat || all.first == path.rows.first) return path;
+    const double *axial = solid && isfinite(solid[all.last - 1]) ? solid : flat;
+    const bool sheared = range_of(shear, all) > range_of(axial, all);
+    return (scree_loading_path){all, sheared ? shear : axial,
+                                sheared ? "shear strain since the first loading (%)"
+                                        : "axial strain since the first loading (%), compression positive"};
+}
+
+/// The end of the branch that begins with the first of these rows: behind the row at which the strain turns, by more
+/// than a hundredth of the window.
 static size_t branch_end(const double *strain, scree_loading_rows rows)
 {
     const double turn = 0.01 * SCREE_PEAK_WINDOW;
@@ -30,6 +55,9 @@ static size_t branch_end(const double *strain, scree_loading_rows rows)
     }
     return rows.last;
 }
+
+/// Of the window: a stage that ends at a strain ends a little before it.
+static const double ENOUGH = 0.99;
 
 /// Mean of the ratio over the rows about row k.
 static double running_mean(const double *ratio, const double *strain, scree_loading_rows rows, size_t k)
@@ -46,8 +74,9 @@ scree_peak scree_peak_find(const double *ratio, const double *strain, scree_load
     for (scree_loading_rows branch = {rows.first, rows.first}; branch.last < rows.last;) {
         branch.last = branch_end(strain, (scree_loading_rows){branch.first, rows.last});
         const bool whole = branch.last - branch.first == rows.last - rows.first;
-        const bool wide = whole || fabs(strain[branch.last - 1] - strain[branch.first]) >= SCREE_PEAK_WINDOW;
+        const bool wide = whole || range_of(strain, branch) >= ENOUGH * SCREE_PEAK_WINDOW;
         for (size_t k = branch.first; k < branch.last && wide; k++) {
+            if (!isfinite(strain[k])) continue;
             double value = running_mean(ratio, strain, branch, k);
             if (value > peak.value || (isnan(peak.value) && !isnan(value))) peak = (scree_peak){value, strain[k]};
         }

@@ -15,6 +15,16 @@ typedef struct scree_loading_rows {
 /// Those of the loading stage; none when there is no such stage or column.
 scree_loading_rows scree_loading_rows_find(const scree_series *series);
 
+/// All loading stages of a run as one curve.
+typedef struct scree_loading_path {
+    scree_loading_rows rows; ///< from the first row of the first one to the last row of the last one
+    const double *strain;    ///< column: that runs on through them; of one stage `axial_strain`; NAN between stages
+    const char *label;       ///< of its axis, in percent; NULL: there is one stage alone
+} scree_loading_path;
+
+/// Of several stages the strain is `strain_zz` (in the plane `strain_yy`), or `strain_shear` where that goes further.
+scree_loading_path scree_loading_path_find(const scree_series *series);
+
 /// Width [1] of the running mean over the axial strain that a peak is looked for in.
 #define SCREE_PEAK_WINDOW 0.01
 
@@ -23,9 +33,9 @@ typedef struct scree_peak {
 } scree_peak;
 
 /// Largest running mean of `ratio` over the rows whose strain lies within half of SCREE_PEAK_WINDOW, and the strain of
-/// its row: the plates' start and single samples make spikes. A window ends where the strain turns, and between two turns
-/// that are less than a window apart nothing is looked for: cycles have no peak. ratio, strain: columns of series.csv.
-/// Cost: rows times rows in the window.
+/// its row: the plates' start and single samples make spikes. A window ends where the strain turns, and between two
+/// turns that are less than a window apart nothing is looked for: cycles have no peak. ratio, strain: columns of
+/// series.csv; rows without a strain do not count. Cost: rows times rows in the window.
 scree_peak scree_peak_find(const double *ratio, const double *strain, scree_loading_rows rows);
 
 /// The first peak of a curve.

@@ -6,7 +6,7 @@
 #include "average/increment.h"
 #include "average/profile.h"
 #include "base/matrix.h"
-#include "base/units.h"
+#include "io/snapshot_when.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -33,51 +33,6 @@ void measure_say(const measure_plan *plan, const char *format, ...)
     (void)vsnprintf(line, sizeof line, format, list);
     va_end(list);
     plan->options->message(plan->options->user, line);
-}
-
-// ---- which snapshot ----------------------------------------------------------------------------------------------
-
-/// The stages that there are snapshots of.
-static void list_stages(const scree_snapshot_mark *mark, size_t count, char *text, size_t size)
-{
-    size_t used = (size_t)snprintf(text, size, "start, end, #N for snapshot N, an axial strain of the run");
-    for (size_t k = 0; k < count && used < size; k++)
-        if (k == 0 || strcmp(mark[k].stage_name, mark[k - 1].stage_name) != 0)
-            used += (size_t)snprintf(text + used, size - used, ", %s", mark[k].stage_name);
-}
-
-static scree_status refuse_when(const char *directory, const char *option, const char *when,
-                                const scree_snapshot_mark *mark, size_t count, scree_error *error)
-{
-    (void)scree_error_set(error, SCREE_ERROR_INPUT, "the run in '%s' has no snapshot of '%s'", directory, when);
-    if (error) (void)snprintf(error->field, sizeof error->field, "--%s", option);
-    if (error) list_stages(mark, count, error->accepted, sizeof error->accepted);
-    return SCREE_ERROR_INPUT;
-}
-
-/// The snapshot of a time that is named.
-static scree_status find_mark(const char *directory, const char *option, const char *when,
-                              const scree_snapshot_mark *mark, size_t count, size_t *found, scree_error *error)
-{
-    scree_error problem = {0};
-    double strain;
-    *found = strcmp(when, "start") == 0 ? 0 : count - 1;
-    if (strcmp(when, "end") == 0 || strcmp(when, "start") == 0) return SCREE_OK;
-    for (size_t k = count; k-- > 0;)
-        if (scree_snapshot_mark_is_of(&mark[k], when) ||
-            (*when == '#' && strtoll(when + 1, NULL, 10) == mark[k].index)) {
-            *found = k;
-            return SCREE_OK;
-        }
-    if (scree_units_parse(when, "1", &strain, &problem))
-        return refuse_when(directory, option, when, mark, count, error);
-    size_t best = SIZE_MAX;
-    for (size_t k = 0; k < count; k++)
-        if (isfinite(mark[k].axial_strain) &&
-            (best == SIZE_MAX || fabs(mark[k].axial_strain - strain) < fabs(mark[best].axial_strain - strain)))
-            best = k;
-    *found = best;
-    return best == SIZE_MAX ? refuse_when(directory, option, when, mark, count, error) : SCREE_OK;
 }
 
 // ---- tables ------------------------------------------------------------------------------------------------------
@@ -372,7 +327,7 @@ static scree_status measure_stage(const char *directory, const scree_snapshot_ma
     const unsigned long last = strtoul(plan->at, &end, 10);
     const bool by_number = *plan->at && *end == 0 && last > 0;
     for (size_t k = 0; k < count; k++) of_stage += is_meant(plan, by_number, last, mark, count, k);
-    if (of_stage == 0) return refuse_when(directory, "at", plan->at, mark, count, error);
+    if (of_stage == 0) return scree_snapshot_refuse_when(mark, count, plan->at, "--at", error);
     scree_status status = scree_allocate(&each, of_stage, sizeof *each, error);
     for (size_t k = 0; k < count && !status; k++) {
         if (!is_meant(plan, by_number, last, mark, count, k)) continue;
@@ -396,8 +351,8 @@ scree_status measure_run(const char *directory, const measure_plan *plan, measur
     if (plan->mean) {
         status = measure_stage(directory, mark, count, plan, tables, error);
     } else {
-        status = find_mark(directory, "at", plan->at, mark, count, &which, error);
-        if (!status && plan->from) status = find_mark(directory, "from", plan->from, mark, count, &from, error);
+        status = scree_snapshot_find_when(mark, count, plan->at, "--at", &which, error);
+        if (!status && plan->from) status = scree_snapshot_find_when(mark, count, plan->from, "--from", &from, error);
         if (!status)
             status = measure_snapshot(directory, &mark[which], plan->from ? &mark[from] : NULL, plan, true, NULL,
                                       tables, error);

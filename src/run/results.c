@@ -35,7 +35,8 @@
 /// The rows of the loading stage.
 typedef struct loading {
     const double *time, *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear, *axial;
-    size_t first, last; ///< rows [first, last)
+    size_t first, last;      ///< rows [first, last)
+    scree_loading_path path; ///< of all loading stages
 } loading;
 
 /// False when there are less than two.
@@ -54,14 +55,15 @@ static bool find_loading(const scree_series *series, loading *l)
                    .shear = scree_series_get(series, "boundary_shear_strain"),
                    .axial = scree_series_get(series, "boundary_axial_strain"),
                    .first = rows.first,
-                   .last = rows.last};
+                   .last = rows.last,
+                   .path = scree_loading_path_find(series)};
     return l->last - l->first > 1;
 }
 
 static void summarise_peak(const loading *l, scree_summary *summary)
 {
     double final_ratio = 0, final_count = 0, end = l->strain[l->last - 1];
-    scree_peak peak = scree_peak_find(l->ratio, l->strain, (scree_loading_rows){l->first, l->last});
+    scree_peak peak = scree_peak_find(l->ratio, l->path.strain, l->path.rows);
     for (size_t k = l->first; k < l->last; k++) {
         if (l->strain[k] < 0.8 * end) continue;
         final_ratio += l->ratio[k];

@@ -140,7 +140,7 @@ static scree_status start_process(const drive *d, const scree_member_paths *path
     arguments[count++] = "--threads";
     arguments[count++] = threads;
     arguments[count++] = "--quiet";
-    if (!d->options->figures) arguments[count++] = "--no-figures";
+    if (!d->options->figures || !scree_sweep_asks_for(d->sweep, "output.figures")) arguments[count++] = "--no-figures";
     if (!restart && state != SCREE_MEMBER_MISSING) arguments[count++] = "--force";
     const bool shares = !restart && leader != j->member && d->state[leader] == SCREE_MEMBER_DONE;
     if (shares) {

@@ -11,6 +11,7 @@ scree_status scree_sweep_estimate_cost(const scree_sweep *sweep, bool figures, s
 {
     scree_handle_check(sweep, "a sweep");
     const size_t members = scree_sweep_member_count(sweep), points = sweep->point_count;
+    const bool drawn = figures && scree_sweep_asks_for(sweep, "output.figures");
     *cost = (scree_sweep_cost){.members = members, .searches = sweep->config.bisect.key[0] != 0};
     for (size_t point = 0; point < points; point++) {
         scree_case *c;
@@ -23,7 +24,7 @@ scree_status scree_sweep_estimate_cost(const scree_sweep *sweep, bool figures, s
             continue;
         }
         if (status) return status;
-        const double seconds = summary.stepping + summary.output + (figures ? summary.figures : 0);
+        const double seconds = summary.stepping + summary.output + (drawn ? summary.figures : 0);
         cost->memory = fmax(cost->memory, summary.memory);
         if (isnan(seconds)) {
             cost->unknown += members / points;

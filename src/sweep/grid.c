@@ -37,6 +37,24 @@ void scree_slug(char *slug, size_t size, const char *text)
     slug[used] = 0;
 }
 
+static bool says(const scree_sweep_assignment *assignment, size_t count, const char *path)
+{
+    for (size_t k = 0; k < count; k++)
+        if (strcmp(assignment[k].path, path) == 0) return true;
+    return false;
+}
+
+bool scree_sweep_asks_for(const scree_sweep *sweep, const char *path)
+{
+    bool found = says(sweep->fixed, sweep->fixed_count, path) || says(sweep->last, sweep->last_count, path);
+    for (size_t d = 0; d < sweep->dimension_count; d++)
+        for (size_t k = 0; k < sweep->dimension[d].count; k++) {
+            const scree_sweep_setting *setting = &sweep->dimension[d].setting[k];
+            found = found || says(setting->assignment, setting->assignment_count, path);
+        }
+    return found;
+}
+
 size_t scree_point_setting(const scree_sweep *sweep, size_t point, size_t dimension)
 {
     for (size_t k = sweep->dimension_count; k > dimension + 1; k--) point /= sweep->dimension[k - 1].count;

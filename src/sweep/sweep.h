@@ -157,6 +157,9 @@ size_t scree_point_setting(const scree_sweep *sweep, size_t point, size_t dimens
 /// Name of a point for people: labels of its settings; of dimension `leave_out` not (SIZE_MAX: of all).
 void scree_point_label(const scree_sweep *sweep, size_t point, size_t leave_out, char *text, size_t size);
 
+/// Whether the sweep, or --set, says something of the key with this path.
+bool scree_sweep_asks_for(const scree_sweep *sweep, const char *path);
+
 /// Turns the config into dimensions, points and members (grid.c). Problems are noted; false when there are any.
 bool scree_sweep_expand(scree_reader *reader, scree_sweep *sweep);
 

@@ -93,6 +93,14 @@ static scree_status has_cells(const scree_plot_run *run, const scree_figure_job 
     return status ? status : scree_cell_snapshot_find(run->directory, which, error);
 }
 
+/// Pressures in the unit that suits them.
+static void scale_pressure(scree_cells *cells, char *label, size_t size)
+{
+    const double scale = scree_plot_label(label, size, "mean pressure p of the cells (@Pa)",
+                                          scree_plot_largest(cells->pressure, cells->count));
+    for (size_t k = 0; k < cells->count; k++) cells->pressure[k] *= scale;
+}
+
 static scree_status draw_map(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     const map_row *row = (const map_row *)job->figure;
@@ -104,9 +112,10 @@ static scree_status draw_map(const scree_plot_run *run, const scree_figure_job *
     if (status) return status;
     status = scree_cell_snapshot_read(run->directory, which, &cells, error);
     if (!status) {
+        char label[64] = "rate of distortion L_II of the cells (1/s)";
+        if (row->pressure) scale_pressure(&cells.cells, label, sizeof label);
         scree_scene scene = {.title = row->title,
-                             .field_name = row->pressure ? "mean pressure p of the cells (Pa)"
-                                                         : "rate of distortion L_II of the cells (1/s)",
+                             .field_name = label,
                              .cells = &cells.cells,
                              .cell_place = cells.assembly.position,
                              .cell_field = row->pressure ? cells.cells.pressure : cells.cells.distortion,

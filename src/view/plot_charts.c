@@ -1,5 +1,6 @@
-/// The charts of a run: columns of series.csv over the axial strain of the loading stage. A number that the summary
-/// makes of a curve is marked on it, with how it was found.
+/// The charts of a run: columns of series.csv over the axial strain of the loading stage, or over the strain that runs
+/// on through all of them where there are several. A number that the summary makes of a curve is marked on it, with how
+/// it was found.
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -40,10 +41,10 @@ typedef struct chart_row {
 
 static const chart_row rows[] = {
     {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction", SCREE_WITH_LOADING},
-     "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, false, NO_MARK, {
-        {"volumetric_strain", "sum of increments", -100, BLUE, false},
-        {"volumetric_strain_enclosed", "enclosed volume", -100, SKY, true},
-        {"volumetric_strain_solid", "solid fraction", -100, VERMILLION, false}}},
+     "Volumetric strain", "volumetric strain (%), compression positive", false, false, NO_MARK, {
+        {"volumetric_strain", "sum of increments", 100, BLUE, false},
+        {"volumetric_strain_enclosed", "enclosed volume", 100, SKY, true},
+        {"volumetric_strain_solid", "solid fraction", 100, VERMILLION, false}}},
     {{"stress-ratio", "axial over lateral stress, applied and from contacts", SCREE_WITH_LOADING},
      "Stress ratio", "axial over lateral stress (1)", false, false, PEAK, {
         {"stress_ratio", "applied", 1, BLUE, false},
@@ -71,14 +72,14 @@ static const chart_row rows[] = {
         {"dissipated_damping", "lost to damping", 1, ORANGE, false},
         {"elastic_normal", "elastic, normal", 1, PINK, false},
         {"elastic_tangential", "elastic, tangential", 1, PINK, true},
-        {"kinetic", "kinetic", 1, BLACK, true},
+        {"kinetic", "kinetic", 1, SKY, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
     {{"energy-stored", "stored energies and the residual of the balance", SCREE_ON_REQUEST},
      "Stored energy and residual", "energy (@J)", false, false, NO_MARK, {
         {"elastic_normal", "elastic, normal", 1, PINK, false},
         {"elastic_tangential", "elastic, tangential", 1, PINK, true},
-        {"kinetic", "kinetic", 1, BLACK, true},
+        {"kinetic", "kinetic", 1, SKY, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
     {{"coordination", "contacts per particle, with and without rattlers", SCREE_WITH_LOADING},
@@ -94,11 +95,27 @@ static const chart_row rows[] = {
 };
 // clang-format on
 
-/// The loading rows of `column`, times `factor`, into `value`. False: there is no such column.
+static size_t rows_of(const scree_plot_run *run)
+{
+    return run->path.rows.last - run->path.rows.first;
+}
+
+/// The loading rows of `column`, times `factor`, into `value`; NAN between stages. Volumetric strains begin anew with
+/// each stage: each goes on from where the one before it has ended. False: there is no such column.
 static bool gather(const scree_plot_run *run, const char *column, double factor, double *value)
 {
-    const double *all = scree_series_get(&run->series, column);
-    for (size_t k = 0; all && k < run->row_count; k++) value[k] = factor * all[run->first_row + k];
+    const double *all = scree_series_get(&run->series, column), *stage = scree_series_get(&run->series, "stage");
+    const bool anew = stage && strncmp(column, "volumetric_strain", strlen("volumetric_strain")) == 0;
+    double before = 0, last = 0;
+    for (size_t k = 0; all && k < rows_of(run); k++) {
+        const size_t row = run->path.rows.first + k;
+        if (anew && k > 0 && stage[row] != stage[row - 1]) {
+            before += last;
+            last = 0;
+        }
+        value[k] = isfinite(run->path.strain[row]) ? factor * (before + all[row]) : NAN;
+        if (isfinite(all[row])) last = all[row];
+    }
     return all != NULL;
 }
 
@@ -135,7 +152,7 @@ static bool is_nothing(const double *value, size_t count)
 static bool has_plates(const scree_plot_run *run)
 {
     const double *work = scree_series_get(&run->series, "work_plates");
-    return work && !is_nothing(work + run->first_row, run->row_count);
+    return work && !is_nothing(work + run->path.rows.first, rows_of(run));
 }
 
 /// What plates hold back by friction is in the lateral stress of the contacts, and not in that of the sides.
@@ -149,16 +166,16 @@ static const char *label_of(const scree_plot_run *run, const curve *c)
 static size_t gather_curves(const scree_plot_run *run, const chart_row *row, double *value, scree_chart_line *line)
 {
     size_t count = 0;
-    (void)gather(run, "axial_strain", 100, value);
+    for (size_t k = 0; k < rows_of(run); k++) value[k] = 100 * run->path.strain[run->path.rows.first + k];
     for (const curve *c = row->curve; c->column; c++) {
-        double *y = value + (count + 1) * run->row_count;
+        double *y = value + (count + 1) * rows_of(run);
         // The first curve makes the chart; others may be missing in runs of earlier versions. Of many curves those that
         // are nothing throughout, such as the work of gravity where there is none, are left out.
         if (!gather(run, c->column, c->factor, y)) continue;
-        if (row->curve[2].column && is_nothing(y, run->row_count)) continue;
+        if (row->curve[2].column && is_nothing(y, rows_of(run))) continue;
         line[count++] = (scree_chart_line){.x = value,
                                            .y = y,
-                                           .count = run->row_count,
+                                           .count = rows_of(run),
                                            .label = label_of(run, c),
                                            .dashed = c->dashed,
                                            .colour = c->colour};
@@ -173,12 +190,11 @@ typedef struct mark {
 
 static bool mark_peak(const scree_plot_run *run, const chart_row *row, mark *m, scree_chart_line *line)
 {
-    const scree_loading_rows loading = {run->first_row, run->first_row + run->row_count};
     const double *value = scree_series_get(&run->series, row->curve[0].column);
-    const scree_peak peak = scree_peak_find(value, scree_series_get(&run->series, "axial_strain"), loading);
+    const scree_peak peak = scree_peak_find(value, run->path.strain, run->path.rows);
     m->x[0] = 100 * peak.strain;
     m->y[0] = peak.value;
-    (void)snprintf(m->label, sizeof m->label, "peak %.3g, mean over %g %%", peak.value, 100 * SCREE_PEAK_WINDOW);
+    (void)snprintf(m->label, sizeof m->label, "peak of the mean over %g %%: %.3g", 100 * SCREE_PEAK_WINDOW, peak.value);
     *line = (scree_chart_line){
         .x = m->x, .y = m->y, .count = 1, .label = m->label, .points = true, .bare = true, .colour = BLACK};
     return isfinite(peak.value);
@@ -190,6 +206,8 @@ static bool mark_steady(const scree_plot_run *run, mark *m, scree_chart_line *li
     const double mean = scree_plot_result(run, "mu"), half = scree_plot_result(run, "mu_error");
     m->x[0] = 100 * scree_plot_result(run, "mu_from");
     m->x[1] = strain ? 100 * strain[run->first_row + run->row_count - 1] : NAN;
+    if (run->path.label) // `mu_from` counts in the last stage
+        for (int k = 0; k < 2; k++) m->x[k] += 100 * run->path.strain[run->first_row];
     for (int k = 0; k < 2; k++) {
         m->y[k] = mean;
         m->low[k] = mean - half;
@@ -217,8 +235,8 @@ static bool keeps_volume(const scree_plot_run *run, const chart_row *row)
 {
     const double *strain = scree_series_get(&run->series, "volumetric_strain_solid");
     if (strcmp(row->figure.name, "volumetric-strain") != 0 || !strain || run->row_count == 0) return false;
-    for (size_t k = 0; k < run->row_count; k++)
-        if (!(fabs(strain[run->first_row + k]) < SAME_VOLUME)) return false;
+    for (size_t k = run->path.rows.first; k < run->path.rows.last; k++)
+        if (isfinite(run->path.strain[k]) && !(fabs(strain[k]) < SAME_VOLUME)) return false;
     return true;
 }
 
@@ -245,18 +263,20 @@ static scree_status has_columns(const scree_plot_run *run, const scree_figure_jo
 static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     const chart_row *row = (const chart_row *)job->figure;
-    char label[128], strain[48];
+    char label[128], strain[96];
     double *value = NULL;
     scree_chart_line line[CURVES + 1];
     mark marked;
-    scree_status status = scree_allocate(&value, (CURVES + 1) * run->row_count, sizeof *value, error);
+    scree_status status = scree_allocate(&value, (CURVES + 1) * rows_of(run), sizeof *value, error);
     if (status) return status;
-    (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
+    if (run->path.label)
+        (void)snprintf(strain, sizeof strain, "%s", run->path.label);
+    else
+        (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
     size_t count = gather_curves(run, row, value, line);
-    double *first = value + run->row_count;
-    double scale =
-        scree_plot_label(label, sizeof label, row->y_label, scree_plot_largest(first, count * run->row_count));
-    for (size_t k = 0; k < count * run->row_count; k++) first[k] *= scale;
+    double *first = value + rows_of(run);
+    double scale = scree_plot_label(label, sizeof label, row->y_label, scree_plot_largest(first, count * rows_of(run)));
+    for (size_t k = 0; k < count * rows_of(run); k++) first[k] *= scale;
     count += add_mark(run, row, &marked, &line[count]);
     scree_chart chart = {.title = row->title,
                          .x_label = strain,

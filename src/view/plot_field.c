@@ -2,8 +2,8 @@
 #include "view/plot_field.h"
 
 #include "base/memory.h"
-#include "base/units.h"
 #include "io/run_directory.h"
+#include "io/snapshot_when.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -138,53 +138,6 @@ static scree_status find_field(const scree_asked_scene *asked, int dimension, co
 
 // ---- which snapshot ----------------------------------------------------------------------------------------------
 
-/// The snapshot nearest to a strain or a time; of several, the last. Those of the run have to reach as far, but for a
-/// twentieth of their range.
-static scree_status find_nearest(const scree_snapshot_mark *mark, size_t count, double wanted, bool is_time,
-                                 size_t *which, scree_error *error)
-{
-    double least = INFINITY, low = INFINITY, high = -INFINITY;
-    for (size_t k = 0; k < count; k++) {
-        const double at = is_time ? mark[k].time : mark[k].axial_strain, off = fabs(at - wanted);
-        low = fmin(low, at);
-        high = fmax(high, at);
-        if (!(off <= least)) continue;
-        least = off;
-        *which = k;
-    }
-    if (*which == SIZE_MAX) return SCREE_OK; // no strain at all
-    if (!(least > 0.05 * (high - low)) || (wanted >= low && wanted <= high)) return SCREE_OK;
-    const double unit = is_time ? 1 : 100;
-    char range[80], text[40];
-    (void)snprintf(range, sizeof range, "%.4g %s to %.4g %s", unit * low, is_time ? "s" : "%", unit * high,
-                   is_time ? "s" : "%");
-    (void)snprintf(text, sizeof text, "%.4g %s", unit * wanted, is_time ? "s" : "%");
-    return scree_plot_refuse(error, "--at", range, "the run does not reach '%s'", text);
-}
-
-static scree_status find_when(const scree_snapshot_mark *mark, size_t count, const char *when, size_t *which,
-                              scree_error *error)
-{
-    scree_error ignored = {0};
-    scree_status status = SCREE_OK;
-    double value;
-    char *end;
-    *which = count - 1;
-    if (!when || strcmp(when, "end") == 0) return SCREE_OK;
-    *which = strcmp(when, "start") == 0 ? 0 : SIZE_MAX;
-    for (size_t k = 0; k < count && *which != 0; k++)
-        if (scree_snapshot_mark_is_of(&mark[k], when)) *which = k;
-    for (size_t k = 0; k < count && *when == '#'; k++)
-        if (isdigit((unsigned char)when[1]) && strtoll(when + 1, &end, 10) == mark[k].index && !*end) *which = k;
-    if (*which == SIZE_MAX && !scree_units_parse(when, "1", &value, &ignored))
-        status = find_nearest(mark, count, value, false, which, error);
-    else if (*which == SIZE_MAX && !scree_units_parse(when, "s", &value, &ignored))
-        status = find_nearest(mark, count, value, true, which, error);
-    if (status || *which != SIZE_MAX) return status;
-    return scree_plot_refuse(error, "--at", "start, end, #N, an axial strain, a time with its unit, or a stage",
-                             "the run has no snapshot of '%s'", when);
-}
-
 /// The first snapshot of the loading stage that was the last.
 static size_t find_start(const scree_snapshot_mark *mark, size_t count)
 {
@@ -273,7 +226,8 @@ scree_status scree_asked_open(scree_asked_scene *asked, const char *directory, s
     if (status) return status;
     asked->run.snapshot_count = count;
     for (size_t k = 0; k < count; k++) asked->run.strain[k] = asked->mark[k].axial_strain;
-    return find_when(asked->mark, count, asked->scene->at, &asked->which, error);
+    return scree_snapshot_find_when(asked->mark, count, asked->scene->at ? asked->scene->at : "end", "--at",
+                                    &asked->which, error);
 }
 
 void scree_asked_close(scree_asked_scene *asked)

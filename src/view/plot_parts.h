@@ -19,6 +19,7 @@ typedef struct scree_plot_run {
     scree_status series_status, snapshot_status; ///< of reading series.csv, and the snapshots of run.h5
     scree_error series_error, snapshot_error;
     size_t first_row, row_count; ///< rows of the loading stage
+    scree_loading_path path;     ///< of all loading stages
     bool winding;                ///< others were loaded before it, or its axial strain turns back
     double *strain;              ///< axial strain of each snapshot of the loading stage, NAN of the others
     bool of_cell;                ///< the sample was loaded as a cell that is periodic in all directions

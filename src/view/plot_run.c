@@ -12,15 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Rows of loading before those of the loading stage.
-static bool has_other_loading(const scree_plot_run *run)
-{
-    const double *strain = scree_series_get(&run->series, "strain_yy"); // of loading stages alone
-    for (size_t k = 0; strain && k < run->first_row; k++)
-        if (isfinite(strain[k])) return true;
-    return false;
-}
-
 /// The axial strain goes back by more than a part of its range.
 static bool turns_back(const scree_plot_run *run)
 {
@@ -44,7 +35,8 @@ static scree_status read_series(scree_plot_run *run, scree_error *error)
     scree_loading_rows rows = scree_loading_rows_find(&run->series);
     run->first_row = rows.first;
     run->row_count = rows.last - rows.first;
-    run->winding = has_other_loading(run) || turns_back(run);
+    run->path = scree_loading_path_find(&run->series);
+    run->winding = run->path.label || turns_back(run);
     return status;
 }
 

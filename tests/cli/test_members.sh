@@ -9,7 +9,7 @@ case: biaxial
 quick: yes
 realisations: 2
 set: {particles.count: 40, stages.compress.strain: 1 %, stages.compress.rate: 0.5 1/s, stages.confine.friction: 0.4,
-  integrator.step: 4e-5 s, measure.windows: [], output.snapshots: 0, output.paraview: no}
+  integrator.step: 4e-5 s, measure.windows: [], output.snapshots: 0, output.paraview: no, output.figures: yes}
 measures: [peak_stress_ratio]
 END
 first=members/000-seed=1
