@@ -53,6 +53,7 @@ static scree_average_frame find_frame(const scree_average_sample *sample, const 
                                  .axis = plan->axis == SCREE_AVERAGE_AXIS_MASS   ? centre_of_mass(sample, s)
                                          : plan->axis == SCREE_AVERAGE_AXIS_APEX ? s->apex
                                                                                  : plan->axis_given};
+    if (plan->fits) frame.side = fmin(frame.side, fmin(frame.height, 2 * frame.half));
     for (int k = 0; k < 3; k++) {
         frame.low[k] = k == 0 ? s->left : k == up ? s->base : sample->low[k];
         frame.high[k] = k == 0 ? s->right : k == up ? s->highest : sample->high[k];

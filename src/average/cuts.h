@@ -35,6 +35,7 @@ typedef struct scree_average_plan {
     unsigned fields;                   ///< of SCREE_AVERAGE_DENSITY ...
     double grains;                     ///< in an element; 0: `side` says
     double side;                       ///< m
+    bool fits;                         ///< no element is larger than the sample: it holds fewer grains
     size_t cuts;                       ///< number
     double height[SCREE_AVERAGE_CUTS]; ///< relative, 0 to 1
     size_t points;                     ///< of a cut, odd

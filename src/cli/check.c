@@ -1,5 +1,6 @@
 /// scree check CASE: the resolved case, and what it amounts to as comments below it. scree check DIR: what is whole in
 /// the folder of a run, and from where it can go on.
+#include "case/case.h"
 #include "cli/case_argument.h"
 #include "cli/specimen_argument.h"
 #include "cli/terminal.h"
@@ -115,6 +116,20 @@ static void print_limits(scree_limits_known known, const scree_stability *s)
     print_line("k_n / E", text, more);
 }
 
+/// What only shows when the first stage begins: grains behind walls, a source or an outlet within one. Large samples are
+/// left to the run, which stops as early.
+static scree_status try_begin(const scree_case *c, const scree_case_summary *summary, scree_error *error)
+{
+    enum { MOST = 20000 };
+    scree_simulation *s;
+    if (summary->particles > MOST) return SCREE_OK;
+    scree_status status = scree_simulation_create(c, 1, &s, error);
+    if (!status) status = scree_simulation_begin_stage(s, NULL, error);
+    if (status && !error->line) scree_case_locate(c, error);
+    scree_simulation_free(s);
+    return status == SCREE_ERROR_INPUT ? status : SCREE_OK;
+}
+
 /// What can be gone on from, for the last lines of a folder's report.
 typedef struct folder_report {
     char checkpoint[TEXT], snapshots[8 * TEXT];
@@ -170,6 +185,7 @@ scree_status scree_verb_check(const scree_command *command)
     }
     if (!status && !(status = scree_case_limits(c, &known, &limits, &error)) && known != SCREE_LIMITS_NONE)
         print_limits(known, &limits);
+    if (!status && known != SCREE_LIMITS_EXACT) status = try_begin(c, &summary, &error);
     if (status) status = scree_terminal_error("check", &error);
     scree_case_free(c);
     return status;

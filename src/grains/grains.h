@@ -69,4 +69,7 @@ int64_t scree_grains_find_material(const scree_grains *grains, size_t kind, cons
 /// Whether the grains lie in a plane, as those of a file without z do, and from where to where along z [m].
 bool scree_grains_are_2d(const scree_grains *grains, double *lower, double *upper);
 
+/// Whether z of all of three or more grains is 0, as dumps of runs in a plane have it.
+bool scree_grains_are_flat(const scree_grains *grains);
+
 #endif

@@ -26,3 +26,11 @@ bool scree_grains_are_2d(const scree_grains *grains, double *lower, double *uppe
     }
     return *upper - *lower <= 1e-6 * grains->column[SCREE_GRAIN_RADIUS][0];
 }
+
+bool scree_grains_are_flat(const scree_grains *grains)
+{
+    const double *z = grains->column[SCREE_GRAIN_Z];
+    size_t zeros = 0;
+    while (z && zeros < grains->count && z[zeros] == 0) zeros++;
+    return grains->count > 2 && zeros == grains->count;
+}

@@ -27,17 +27,20 @@ static double range_of(const double *strain, scree_loading_rows rows)
 
 scree_loading_path scree_loading_path_find(const scree_series *series)
 {
-    scree_loading_path path = {scree_loading_rows_find(series), scree_series_get(series, "axial_strain"), NULL};
+    scree_loading_path path = {scree_loading_rows_find(series), scree_series_get(series, "axial_strain"), NULL, false};
     const double *flat = scree_series_get(series, "strain_yy"), *solid = scree_series_get(series, "strain_zz"),
                  *shear = scree_series_get(series, "strain_shear");
     scree_loading_rows all = {0, path.rows.last};
     while (flat && all.first < path.rows.first && !isfinite(flat[all.first])) all.first++;
-    if (!flat || all.first == path.rows.first) return path;
+    if (!flat || path.rows.last == 0) return path;
     const double *axial = solid && isfinite(solid[all.last - 1]) ? solid : flat;
-    const bool sheared = range_of(shear, all) > range_of(axial, all);
-    return (scree_loading_path){all, sheared ? shear : axial,
-                                sheared ? "shear strain since the first loading (%)"
-                                        : "axial strain since the first loading (%), compression positive"};
+    path.sheared = range_of(shear, all) > range_of(axial, all);
+    if (all.first == path.rows.first) return path;
+    path.rows = all;
+    path.strain = path.sheared ? shear : axial;
+    path.label = path.sheared ? "shear strain since the first loading (%)"
+                              : "axial strain since the first loading (%), compression positive";
+    return path;
 }
 
 /// The end of the branch that begins with the first of these rows: behind the row at which the strain turns, by more

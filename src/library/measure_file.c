@@ -79,6 +79,8 @@ static scree_status check(const char *path, const measure_plan *plan, const scre
         return refuse(path, NULL, "", error, "the file has no radii: write a column radius or diameter");
     if (model->dimension == 3 && !g->column[SCREE_GRAIN_Z])
         return refuse(path, NULL, "", error, "the file has no column z: its grains lie in a plane, the case in space");
+    if (model->dimension == 3 && scree_grains_are_flat(g))
+        return refuse(path, NULL, "", error, "z of all grains is 0: they lie in a plane, the case in space");
     if (model->dimension == 2 && !scree_grains_are_2d(g, &lower, &upper))
         return refuse(path, NULL, "", error,
                       "z of the grains goes from %.6g to %.6g m: they lie in space, and the case in a plane", lower,

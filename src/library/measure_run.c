@@ -250,6 +250,7 @@ static scree_status measure_sample(const char *name, const measure_plan *plan, b
     measure_plan own = *plan;
     own.average.frame = first ? NULL : frame;
     if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample->counted);
+    own.average.fits = !own.element_given;
     if (!own.element_given)
         own.average.grains = sample->counted < SHARE * USUAL ? fmax(1, (double)(sample->counted / SHARE)) : USUAL;
     // Kernels reach out of a periodic cell as far as they are wide, branches included.

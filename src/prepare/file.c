@@ -135,7 +135,10 @@ static void supply_radii(scree_reader *reader, const scree_grains *g, double fac
         least = fmin(least, factor * g->column[SCREE_GRAIN_RADIUS][i]);
         most = fmax(most, factor * g->column[SCREE_GRAIN_RADIUS][i]);
     }
-    if (least > 0) supply_limits(reader, least, most);
+    if (least > 0)
+        supply_limits(reader, least, most);
+    else
+        supply_limits(reader, 1, 2); // the rules say what is wrong
 }
 
 /// Of a file that cannot be read, which the rules refuse: nobody is asked for what stands in it.
@@ -195,6 +198,10 @@ static void check_dimension(const judged *j)
     if (j->config->dimension == 3 && !j->g->column[SCREE_GRAIN_Z])
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
                           "the file has no column z: its grains lie in a plane, and dimension is 3");
+    else if (j->config->dimension == 3 && scree_grains_are_flat(j->g))
+        scree_rule_refuse(j->reader, "stages.0.file", NULL,
+                          "z of all grains is 0: they lie in a plane, and dimension is 3 (give a layer of spheres "
+                          "another z)");
     else if (j->config->dimension == 2 && !scree_grains_are_2d(j->g, &lower, &upper))
         scree_rule_refuse(j->reader, "stages.0.file", NULL,
                           "z of the grains goes from %.6g to %.6g m: they lie in space, and dimension is 2", lower,
@@ -241,12 +248,15 @@ static bool check_radii(const judged *j)
         return false;
     }
     double least = INFINITY, most = 0;
+    size_t smallest = 0;
     for (size_t i = 0; i < j->g->count; i++) {
+        if (radius[i] < radius[smallest]) smallest = i;
         least = fmin(least, radius[i]);
         most = fmax(most, radius[i]);
     }
     if (!(least > 0))
-        scree_rule_refuse(j->reader, "stages.0.file", NULL, "a radius is %.6g m: all must be above 0", least);
+        scree_rule_refuse(j->reader, "stages.0.file", NULL,
+                          "the radius of grain %zu (from 0) is %.6g m: all must be above 0", smallest, least);
     else if (least < sizes.least || most > sizes.most)
         scree_rule_refuse(j->reader, "particles.distribution", NULL,
                           "radii of the file go from %.15g to %.15g m, those of the particles from %.15g to %.15g m: "

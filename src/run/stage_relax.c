@@ -59,12 +59,16 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
             double radius = scree_body_bounding_radius(state, row);
             double clearance = scree_surface_clearance(wall_set, k, place, radius);
             if (clearance >= scree_body_inner_radius(state, row) * (1 - s->model.overlap_limit)) continue;
-            return scree_error_set(error, SCREE_ERROR_INPUT,
-                                   "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre "
-                                   "is %.4g m from it; move the wall, or change the box of the prepare stage (it "
-                                   "begins at the origin)",
-                                   state->id[row], place[0], place[1], place[2], radius,
-                                   clearance < 0 ? "behind" : "in", wall_set->surface[k].config->name, fabs(clearance));
+            const scree_config_wall *wall = wall_set->surface[k].config;
+            scree_error_set(error, SCREE_ERROR_INPUT,
+                            "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre is %.4g m "
+                            "from it; move the wall, or change the box of the prepare stage (it begins at the origin)",
+                            state->id[row], place[0], place[1], place[2], radius, clearance < 0 ? "behind" : "in",
+                            wall->name, fabs(clearance));
+            if (!error) return SCREE_ERROR_INPUT;
+            (void)snprintf(error->field, sizeof error->field, "walls.%td", wall - s->c->config.walls);
+            scree_case_locate(s->c, error);
+            return SCREE_ERROR_INPUT;
         }
     }
     return SCREE_OK;

@@ -53,15 +53,42 @@ scree_status scree_plot_refuse(scree_error *error, const char *option, const cha
 
 // ---- columns -----------------------------------------------------------------------------------------------------
 
+/// Whether all words of `name`, parted by '_', are in `column`.
+static bool has_words(const char *column, const char *name)
+{
+    char word[64];
+    for (; *name; name += strspn(name, "_")) {
+        const size_t length = strcspn(name, "_");
+        if (length >= sizeof word) return false;
+        (void)snprintf(word, sizeof word, "%.*s", (int)length, name);
+        if (!strstr(column, word)) return false;
+        name += length;
+    }
+    return true;
+}
+
+/// Columns of the same words, the one that is spelled nearly so, and where all stand.
+static void list_alike(const scree_series *series, const char *name, char *list, size_t size)
+{
+    const char *nearest = scree_nearest(name, (const char *const *)series->name, series->column_count);
+    size_t used = 0;
+    *list = 0;
+    for (size_t c = 0; c < series->column_count && used < size / 2; c++)
+        if (series->name[c] == nearest || has_words(series->name[c], name))
+            used += (size_t)snprintf(list + used, size - used, "%s, ", series->name[c]);
+    (void)snprintf(list + used, size - used, "%s",
+                   used > 0 ? "and others of the first line of series.csv" : "a name of the first line of series.csv");
+}
+
 static scree_status find_column(const asked_chart *chart, const char *option, const char *name, size_t *column,
                                 scree_error *error)
 {
     const scree_series *series = &chart->run.series;
     for (*column = 0; *column < series->column_count; ++*column)
         if (strcmp(series->name[*column], name) == 0) return SCREE_OK;
-    const char *nearest = scree_nearest(name, (const char *const *)series->name, series->column_count);
-    return scree_plot_refuse(error, option, nearest ? nearest : "a name of the first line of series.csv",
-                             "series.csv has no column '%s'", name);
+    char list[sizeof error->accepted];
+    list_alike(series, name, list, sizeof list);
+    return scree_plot_refuse(error, option, list, "series.csv has no column '%s'", name);
 }
 
 static scree_status find_columns(asked_chart *chart, scree_error *error)
