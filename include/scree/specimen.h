@@ -92,6 +92,7 @@ typedef struct scree_moduli {
     double fabric[9];                 ///< mean of n n over the contacts, 3 x 3
     double uniaxial_young[3];   ///< Pa, between smooth plates across each axis, sides free; NAN: periodic somewhere
     double uniaxial_poisson[9]; ///< 1, 3 x 3: across axis j under a stress along i; NAN of i itself
+    double pressed_bulk; ///< Pa, of discs that of areas, between smooth plates all around; NAN: periodic somewhere
 } scree_moduli;
 
 /// Errors: SCREE_ERROR_INPUT without bodies, for an elasticity that is none, or a sample that is neither periodic in

@@ -95,11 +95,16 @@ static void name_stages(scree_reader *reader, scree_config *config)
     }
 }
 
-/// Bonds hold a sample together without a pressure: in a periodic cell, or between plates with its sides free.
+/// Bonds hold a sample together without a pressure: in a periodic cell, between plates with its sides free, or where
+/// all sides are driven.
 static bool stands_by_bonds(const scree_config *config, int64_t index, bool bonded)
 {
     const scree_boundary *boundary = bonded ? scree_config_held_by(config, index) : NULL;
-    return boundary && (boundary->periodic || boundary->unpressed);
+    const scree_config_stage *stage = &config->stages[index];
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return boundary &&
+           (boundary->periodic || boundary->unpressed ||
+            (numbers->strains_all && stage->own && numbers->strains_all(stage->own, (int)config->dimension)));
 }
 
 static void check_stage_order(scree_reader *reader, const scree_config *config)

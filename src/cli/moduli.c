@@ -59,6 +59,8 @@ static void print_uniaxial(const scree_moduli *m)
             print_row(name, m->uniaxial_poisson[3 * i + j], "1", "");
         }
     }
+    if (!isnan(m->pressed_bulk))
+        print_row("pressed_bulk_modulus", m->pressed_bulk, "Pa", "between smooth plates all around");
 }
 
 static void print_all(const scree_moduli *m)

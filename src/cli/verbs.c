@@ -178,8 +178,8 @@ static const scree_verb case_verbs[] = {
             "and for comparison the moduli if all particles followed the mean strain (Voigt). Nothing is run but what "
             "leads to the specimen. Contacts stay as they are: none opens, closes or slides. Of a box also E and nu of "
             "a "
-            "uniaxial test along each axis, between smooth plates, the sides free, over the area between the outermost "
-            "surfaces.\n\n"
+            "uniaxial test along each axis, between smooth plates, the sides free, and K between smooth plates all "
+            "around, over the areas between the outermost surfaces.\n\n"
             "In 2D the moduli are those of the plane: K of areas, K = E / (2 (1 - nu)). Lines are name, value, unit, "
             "meaning.",
         .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,

@@ -19,7 +19,7 @@ static void set_stiffness(int dimension, const double *matrix, double *stiffness
                 matrix[i * n + j] * (i < dimension ? 1 : M_SQRT1_2) * (j < dimension ? 1 : M_SQRT1_2);
 }
 
-/// Young's modulus along each axis and Poisson's ratios, of a sample that ends somewhere.
+/// Young's modulus along each axis, Poisson's ratios, and the bulk modulus, of a sample that ends somewhere.
 static scree_status press(const scree_simulation *s, const scree_specimen *specimen, scree_moduli *out,
                           scree_error *error)
 {
@@ -33,6 +33,10 @@ static scree_status press(const scree_simulation *s, const scree_specimen *speci
         out->iterations += found.iterations;
         for (int k = 0; k < 3; k++) out->uniaxial_poisson[3 * axis + k] = found.poisson[k];
     }
+    if (status) return status;
+    size_t iterations;
+    status = scree_specimen_press_piece_all(&s->state, specimen, &out->pressed_bulk, &iterations, error);
+    out->iterations += iterations;
     return status;
 }
 

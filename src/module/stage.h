@@ -26,6 +26,7 @@ typedef struct scree_stage_numbers {
     bool still;    ///< no particle moves: there is no critical step
     bool collides; ///< nothing holds or drives the bodies, which meet and part
     const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
+    bool (*strains_all)(const void *own, int dimension); ///< whether it drives all normal components; NULL: no
     const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not
     const char *needs_standing; ///< what is wrong where nothing stands around the sample; NULL: nothing need stand
     const char *needs_free;     ///< what is wrong where plates stand, since it imposes a velocity gradient; names of

@@ -41,10 +41,11 @@ static const scree_result results[] = {
     {"static_contacts", "1", "contacts between particles"},
     {"static_axial_young_modulus", "Pa", "Young's modulus between smooth plates below and above, sides free"},
     {"static_axial_poisson_ratio", "1", "Poisson's ratio then, in space the mean of both"},
+    {"static_pressed_bulk_modulus", "Pa", "bulk modulus, of discs that of areas, between smooth plates all around"},
 };
 
 static void set(scree_summary *summary, const scree_specimen *s, const scree_specimen_moduli *found,
-                const scree_uniaxial *axial)
+                const scree_uniaxial *axial, double bulk)
 {
     const scree_isotropic of[3] = {found->isotropic, found->voigt, scree_specimen_estimate(s)};
     const scree_result *row = results;
@@ -59,8 +60,9 @@ static void set(scree_summary *summary, const scree_specimen *s, const scree_spe
     scree_summary_set_number(summary, (row++)->name, pairs);
     if (isnan(axial->young)) return;
     scree_summary_set_number(summary, (row++)->name, axial->young);
-    scree_summary_set_number(summary, row->name,
+    scree_summary_set_number(summary, (row++)->name,
                              s->dimension == 3 ? 0.5 * (axial->poisson[0] + axial->poisson[1]) : axial->poisson[0]);
+    scree_summary_set_number(summary, row->name, bulk);
 }
 
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
@@ -70,14 +72,17 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     scree_specimen specimen = {0};
     scree_specimen_moduli found;
     scree_uniaxial axial;
+    double bulk;
+    size_t iterations;
     if (!own || !own->moduli || s->state.count == 0) return SCREE_OK;
     scree_status status = scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
     if (!status) status = scree_specimen_of_state(&s->stage_model, &s->state, &s->work, &specimen, error);
     if (status) return status;
     status = scree_specimen_press_piece(&s->state, &specimen, s->model.dimension - 1, &axial, error);
+    if (!status) status = scree_specimen_press_piece_all(&s->state, &specimen, &bulk, &iterations, error);
     if (!status) status = scree_specimen_take_piece(&s->state, &specimen, error);
     if (!status) status = scree_specimen_find_moduli(&specimen, &found, error);
-    if (!status) set(run->summary, &specimen, &found, &axial);
+    if (!status) set(run->summary, &specimen, &found, &axial, bulk);
     scree_specimen_destroy(&specimen);
     return status;
 }

@@ -207,6 +207,15 @@ static double strain_of(const void *own)
     return is_cyclic(stage) && !isnan(stage->reverse_strain) ? stage->reverse_strain : stage->strain;
 }
 
+/// No normal component hangs on a stress, so none needs a pressure to begin with.
+static bool strains_all(const void *own, int dimension)
+{
+    const config *stage = own;
+    for (int axis = 0; axis < dimension; axis++)
+        if (has_stress(stage, axis)) return false;
+    return left(stage, dimension) == 0 || stage->keep == KEEP_LATERAL_STRAIN || stage->keep == KEEP_VOLUME;
+}
+
 static double planned(const scree_model *model, const void *own, double wave)
 {
     return scree_loading_planned(duration(model, own), ((const config *)own)->rise_time, wave);
@@ -497,6 +506,7 @@ static const scree_stage stage_face = {.name = "load_path",
 static const scree_stage_numbers numbers = {.held = true,
                                             .needs_pressure =
                                                 "a confine stage must come before: load_path begins with its pressure",
+                                            .strains_all = strains_all,
                                             .rate = rate_of,
                                             .strain = strain_of,
                                             .wrong = wrong};

@@ -40,6 +40,17 @@ scree_status scree_specimen_press_piece(const scree_state *state, const scree_sp
     return scree_specimen_press(specimen, &faces, axis, out, error);
 }
 
+scree_status scree_specimen_press_piece_all(const scree_state *state, const scree_specimen *specimen, double *bulk,
+                                            size_t *iterations, scree_error *error)
+{
+    scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+    *bulk = NAN;
+    *iterations = 0;
+    if (specimen->periodic) return SCREE_OK;
+    find_faces(state, &faces);
+    return scree_specimen_press_all(specimen, &faces, bulk, iterations, error);
+}
+
 scree_isotropic scree_specimen_estimate(const scree_specimen *s)
 {
     double square = 0, normal = 0, tangential = 0;

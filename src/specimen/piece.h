@@ -17,6 +17,10 @@ scree_status scree_specimen_take_piece(const scree_state *state, scree_specimen 
 scree_status scree_specimen_press_piece(const scree_state *state, const scree_specimen *specimen, int axis,
                                         scree_uniaxial *out, scree_error *error) SCREE_MUST_USE;
 
+/// The same between plates all around: its bulk modulus [Pa].
+scree_status scree_specimen_press_piece_all(const scree_state *state, const scree_specimen *specimen, double *bulk,
+                                            size_t *iterations, scree_error *error) SCREE_MUST_USE;
+
 /// Voigt's moduli from number, mean springs and mean square radius alone (M 4.15-4.18).
 scree_isotropic scree_specimen_estimate(const scree_specimen *specimen);
 

@@ -1,8 +1,8 @@
-/// Uniaxial compression on the operator. With x0 the motion of the plates continued to all bodies (along the axis to
-/// the place of each, those of a face to the plane of their centres) contacts are given G x0 (specimen/static.h), and
-/// the bodies of the faces keep it along the axis. The force on a plate is what the contacts exert on its bodies, f
-/// along the axis; its mean over both plates counts (they differ by what the solution leaves open).
-/// Cost: one static solution.
+/// Compression between plates on the operator. With x0 the motion of the plates continued to all bodies (along each
+/// driven axis to the place of each, those of a face to the plane of their centres) contacts are given G x0
+/// (specimen/static.h), and the bodies of the faces keep it along that axis. The force on a plate is what the contacts
+/// exert on its bodies, f along the axis; its mean over both plates counts (they differ by what the solution leaves
+/// open). Cost: one static solution.
 #include "specimen/uniaxial.h"
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@ typedef struct press {
     const scree_specimen *s; ///< as it is given
     scree_specimen between;  ///< the same between the plates
     scree_box box;
-    int axis;
+    unsigned axes; ///< 1 << axis: plates stand across it
     double *imposed, *motion, *offset, *force;
 } press;
 
@@ -27,10 +27,10 @@ static void destroy(press *p)
     scree_release(&p->force);
 }
 
-static scree_status create(press *p, const scree_specimen *s, const scree_box_faces *faces, int axis,
+static scree_status create(press *p, const scree_specimen *s, const scree_box_faces *faces, unsigned axes,
                            scree_error *error)
 {
-    *p = (press){.s = s, .axis = axis};
+    *p = (press){.s = s, .axes = axes};
     scree_status status = scree_specimen_find_box(s, faces, &p->box, error);
     if (!status) status = scree_specimen_copy(s, &p->between, error);
     if (!status) status = scree_allocate(&p->imposed, scree_specimen_motions(s), sizeof(double), error);
@@ -39,19 +39,32 @@ static scree_status create(press *p, const scree_specimen *s, const scree_box_fa
     return status ? status : scree_allocate(&p->force, scree_specimen_contact_forces(s), sizeof(double), error);
 }
 
-/// A unit strain along the axis; walls do not touch.
-static void impose(press *p)
+static bool drives(const press *p, int axis)
+{
+    return p->axes >> axis & 1U;
+}
+
+/// A unit strain along one of the axes.
+static void impose_along(press *p, int axis)
 {
     scree_specimen *s = &p->between;
     for (size_t body = 0; body < s->body_count; body++) {
-        double *along = p->imposed + body * (size_t)s->components + p->axis;
-        *along = s->position[body][p->axis];
+        double *along = p->imposed + body * (size_t)s->components + axis;
+        *along = s->position[body][axis];
         for (int end = 0; end < 2; end++) {
-            if (!scree_box_has(p->s, &p->box, body, end, p->axis)) continue;
-            s->held[body] = (uint8_t)(1U << p->axis);
-            *along = p->box.plane[end][p->axis];
+            if (!scree_box_has(p->s, &p->box, body, end, axis)) continue;
+            s->held[body] |= (uint8_t)(1U << axis);
+            *along = p->box.plane[end][axis];
         }
     }
+}
+
+/// A unit strain along all of them; walls do not touch.
+static void impose(press *p)
+{
+    scree_specimen *s = &p->between;
+    for (int axis = 0; axis < s->dimension; axis++)
+        if (drives(p, axis)) impose_along(p, axis);
     for (size_t c = 0; c < s->contact_count; c++)
         if (s->contact[c].second == SCREE_SPECIMEN_WALL) s->contact[c].stiffness = (scree_springs){0, 0};
     scree_specimen_relative(s, p->imposed, p->offset);
@@ -71,27 +84,36 @@ static double length(const press *p, int k)
     return p->box.plane[1][k] - p->box.plane[0][k];
 }
 
-/// Tension of the plates over their area: contacts pull the bodies of a face with G^T f.
-static double stress(press *p)
+/// Tension of the plates across an axis over their area: contacts pull the bodies of a face with G^T f, which
+/// `imposed` takes.
+static double stress(const press *p, int axis)
 {
     const scree_specimen *s = p->s;
     double area = s->dimension == 2 ? s->volume[0] / (M_PI * s->radius[0] * s->radius[0]) : 1, pull = 0;
     for (int k = 0; k < s->dimension; k++)
-        if (k != p->axis) area *= p->box.face[1][k] - p->box.face[0][k];
-    scree_specimen_gather(&p->between, p->force, p->imposed);
+        if (k != axis) area *= p->box.face[1][k] - p->box.face[0][k];
     for (int end = 0; end < 2; end++)
-        pull += (end == 0 ? 0.5 : -0.5) * (double)p->box.count[end][p->axis] *
-                mean_of_face(p, p->imposed, end, p->axis, p->axis);
+        pull +=
+            (end == 0 ? 0.5 : -0.5) * (double)p->box.count[end][axis] * mean_of_face(p, p->imposed, end, axis, axis);
     return pull / area;
 }
 
-static void measure(press *p, scree_uniaxial *out)
+static scree_status solve(press *p, size_t *iterations, scree_error *error)
+{
+    impose(p);
+    const scree_static_load load = {.offset = p->offset};
+    scree_status status = scree_static_solve(&p->between, &load, p->motion, p->force, iterations, error);
+    if (!status) scree_specimen_gather(&p->between, p->force, p->imposed);
+    return status;
+}
+
+static void measure(const press *p, int axis, scree_uniaxial *out)
 {
     for (int k = 0; k < p->s->dimension; k++)
-        if (k != p->axis)
+        if (k != axis)
             out->poisson[k] =
                 -(mean_of_face(p, p->motion, 1, k, k) - mean_of_face(p, p->motion, 0, k, k)) / length(p, k);
-    out->young = stress(p);
+    out->young = stress(p, axis);
 }
 
 scree_status scree_specimen_press(const scree_specimen *s, const scree_box_faces *faces, int axis, scree_uniaxial *out,
@@ -99,13 +121,23 @@ scree_status scree_specimen_press(const scree_specimen *s, const scree_box_faces
 {
     press p;
     *out = (scree_uniaxial){NAN, {NAN, NAN, NAN}, 0};
-    scree_status status = create(&p, s, faces, axis, error);
-    if (!status) {
-        impose(&p);
-        const scree_static_load load = {.offset = p.offset};
-        status = scree_static_solve(&p.between, &load, p.motion, p.force, &out->iterations, error);
-    }
-    if (!status) measure(&p, out);
+    scree_status status = create(&p, s, faces, 1U << axis, error);
+    if (!status) status = solve(&p, &out->iterations, error);
+    if (!status) measure(&p, axis, out);
+    destroy(&p);
+    return status;
+}
+
+scree_status scree_specimen_press_all(const scree_specimen *s, const scree_box_faces *faces, double *bulk,
+                                      size_t *iterations, scree_error *error)
+{
+    press p;
+    double sum = 0;
+    *bulk = NAN;
+    scree_status status = create(&p, s, faces, (1U << s->dimension) - 1, error);
+    if (!status) status = solve(&p, iterations, error);
+    for (int axis = 0; axis < s->dimension && !status; axis++) sum += stress(&p, axis);
+    if (!status) *bulk = sum / (s->dimension * s->dimension);
     destroy(&p);
     return status;
 }

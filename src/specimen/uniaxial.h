@@ -1,5 +1,5 @@
-/// A specimen that fills a box between two smooth plates: Young's modulus and Poisson's ratios as a uniaxial test has
-/// them, by a static solution.
+/// A specimen that fills a box between smooth plates, two or all around: Young's modulus and Poisson's ratios as a
+/// uniaxial test has them, the bulk modulus of an isotropic one, by static solutions.
 #ifndef SCREE_SPECIMEN_UNIAXIAL_H
 #define SCREE_SPECIMEN_UNIAXIAL_H
 
@@ -17,5 +17,10 @@ typedef struct scree_uniaxial {
 /// SCREE_ERROR_GUARD without convergence; memory.
 scree_status scree_specimen_press(const scree_specimen *specimen, const scree_box_faces *faces, int axis,
                                   scree_uniaxial *out, scree_error *error) __attribute__((warn_unused_result));
+
+/// The bulk modulus [Pa], in the plane that of areas, between plates across all axes: mean of the normal stresses over
+/// the sum of the strains. The plates are smooth: bodies of a face move with it along its axis alone. Errors: the same.
+scree_status scree_specimen_press_all(const scree_specimen *specimen, const scree_box_faces *faces, double *bulk,
+                                      size_t *iterations, scree_error *error) __attribute__((warn_unused_result));
 
 #endif

@@ -39,4 +39,28 @@ within "strain at its end" 0.00399 0.00401 "$low"
 
 expect 2 'strain_rate' "$scree" run oedometer "${small[@]}" --set "stages.load.stress={yy: 1 kPa}" -o no
 
+# --- bonds hold what no stress is asked of
+cat >bonded.yaml <<'END'
+name: bonded
+materials: [{name: disc, young_modulus: 200 GPa, poisson_ratio: 0.35, density: 2000 kg/m3, friction: 0, normal_stiffness: 7e10 N/m, stiffness_ratio: 0.5, damping_ratio: 0}]
+particles: {shape: disc, material: disc, count: 100, distribution: uniform, radius_min: 0.3 mm, radius_max: 0.5 mm, thickness: 1 m}
+contact: {law: linear}
+loads: [{load: background_damping, translation: 0.2, rotation: 0.2}]
+integrator: {step: 20 ns}
+stages:
+  - {stage: prepare, method: dense, solid_fraction: 91 %, aspect_ratio: 1}
+  - {stage: bond, gap_tolerance: 10 um, overlap_tolerance: 40 um}
+  - {stage: load_path, name: press, boundary: plates, strain_rate: {xx: -0.2 1/s, yy: -0.2 1/s}, time: 0.1 ms}
+output: {snapshots: 1, figures: no, paraview: no}
+END
+expect 0 '^' "$scree" run bonded.yaml --quiet -o b
+within 'energy balance' 0 1e-6 "$("$scree" get b energy_residual)"
+within 'pressure' 1e6 3e6 "$(column b p 2 | tail -1)"
+for keep in 'volume' 'lateral_strain'; do
+    sed "s/strain_rate: {.*}, time/strain_rate: {yy: -0.2 1\/s}, keep: $keep, time/" bonded.yaml >kept.yaml
+    expect 0 'press' "$scree" check kept.yaml
+done
+sed 's/, yy: -0.2 1.s}/}, stress: {yy: 1 kPa}/' bonded.yaml >half.yaml
+expect 2 'half.yaml:10:13: stages.2.stage: a confine stage must come before: load_path begins with its pressure' "$scree" check half.yaml
+
 finish
