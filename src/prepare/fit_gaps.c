@@ -9,7 +9,9 @@
 ///   last sum is the squared Wasserstein distance of the two distributions (their order statistics), and bodies may
 ///   exchange sizes;
 /// - wide gaps lose weight, w = 1/(1 + (gap + m)^2/c^2)^2 (Geman and McClure) for gaps wider than the mean, with c
-///   lowered to what a bond may be off: the triangulation has edges across holes, which need not close.
+///   lowered to what a bond may be off: the triangulation has edges across holes, which need not close;
+/// - at the end, where two bodies are still pressed into each other, as between others in a corner, the one that is
+///   pressed most goes to the widest hole (in space; of 400 spheres one in four packings has such a pair).
 /// In the plane edges, walls and the unknown m are as many as unknowns, so but for p all gaps may close (Koebe); in
 /// space there are more edges than unknowns.
 ///
@@ -31,6 +33,8 @@ static const double EXACT = 1e-2;    // residual of a linear solution
 static const double FARTHEST = 0.3;  // mean radii: largest move in a step
 static const double SLOW = 0.95;     // ratio of the scatter of two rounds at the end
 static const double SETTLED = 1e-3;  // share of bonds that a round may still add at the end
+static const double REOPENED = 0.3;  // mean radii: c after a body has been moved into a hole
+enum { PATIENCE = 8 };               // rounds between two bodies that are moved into holes
 
 typedef struct fit {
     const scree_gap_task *task;
@@ -402,6 +406,38 @@ static void set_solid(fit *f)
     }
 }
 
+/// Of the pairs that are pressed into each other deeper than a bond may be, the body with most of it; count: there is
+/// none.
+static size_t most_pressed(fit *f, double farthest)
+{
+    const size_t count = f->bodies->count;
+    double normal[3], *pressed = f->trial;
+    size_t most = count;
+    memset(pressed, 0, count * sizeof *pressed);
+    for (size_t e = 0; e < f->net.edge_count; e++) {
+        const scree_gap_edge *edge = &f->net.edge[e];
+        const double off = scree_gap_of_edge(f->bodies, edge, normal) + f->overlap;
+        if (off >= -farthest) continue;
+        pressed[edge->first] -= off;
+        pressed[edge->second] -= off;
+    }
+    for (size_t i = 0; i < count; i++)
+        if (pressed[i] > (most < count ? pressed[most] : 0)) most = i;
+    return most;
+}
+
+/// Puts it into the widest hole, as large as fits between bodies of the mean size; false: none is pressed.
+static bool move_to_hole(fit *f, double farthest)
+{
+    scree_gap_bodies *b = f->bodies;
+    const size_t body = most_pressed(f, farthest);
+    if (body == b->count || !(f->net.hole.power > 0)) return false;
+    const uint8_t c = f->task->sizes.class_of[body];
+    memcpy(&b->at[body * width_of(b)], f->net.hole.centre, (size_t)b->dimension * sizeof *b->at);
+    *radius_of(b, body) = fmin(fmax(sqrt(f->net.hole.power + 1) - 1, f->task->sizes.least[c]), f->task->sizes.most[c]);
+    return true;
+}
+
 /// Nothing is left to do: gaps have been weighed to the end, scatter as little as they may, and no more of them close.
 static bool is_done(const fit *f, double wide, const scree_gap_report *before, const scree_gap_report *report)
 {
@@ -417,6 +453,7 @@ scree_status scree_gaps_fit(const scree_gap_task *task, scree_gap_bodies *bodies
     fit f = {.task = task, .bodies = bodies, .unknowns = bodies->count * width_of(bodies) + 1, .lambda = 1e-2};
     double wide = WIDE;
     bool done = false;
+    int64_t narrow = 0; // rounds since gaps have been weighed to the end
     scree_status status = create_fit(&f, error);
     *report = (scree_gap_report){0};
     for (int64_t round = 0; round < task->rounds && !status && !done; round++) {
@@ -425,7 +462,9 @@ scree_status scree_gaps_fit(const scree_gap_task *task, scree_gap_bodies *bodies
         for (int step = 0; step < STEPS && !status; step++) take_step(&f);
         if (!status) scree_gap_report_of_net(bodies, &f.net, f.overlap, task->tolerance, report);
         if (!status) done = is_done(&f, wide, &before, report);
+        narrow = wide <= farthest ? narrow + 1 : 0;
         wide = fmax(wide * NARROWER, farthest);
+        if (!status && !done && narrow % PATIENCE == PATIENCE - 1 && move_to_hole(&f, farthest)) wide = REOPENED;
     }
     if (!status) {
         set_solid(&f);

@@ -145,13 +145,15 @@ static int mirror_of(const scree_gap_bodies *b, int copy, bool *mirrored)
     return *mirrored && cells == 1 ? wall : -1;
 }
 
-static void add_edge(const scree_gap_bodies *b, const cloud *c, const raw_edge *raw, scree_gap_net *net)
+/// beside: bit w of each body: it is beside the wall w.
+static void add_edge(const scree_gap_bodies *b, const cloud *c, const raw_edge *raw, scree_gap_net *net,
+                     uint8_t *beside)
 {
     const uint32_t parent = c->parent[raw->second];
     bool mirrored;
     const int wall = mirror_of(b, c->copy[raw->second], &mirrored);
     if (mirrored) {
-        if (parent == raw->first && wall >= 0) net->touch[net->touch_count++] = (scree_gap_touch){raw->first, wall};
+        if (parent == raw->first && wall >= 0) beside[parent] |= (uint8_t)(1U << wall);
         return;
     }
     // The image of an edge that is there across the opposite face.
@@ -161,11 +163,29 @@ static void add_edge(const scree_gap_bodies *b, const cloud *c, const raw_edge *
     for (int k = 0; k < b->dimension; k++) edge->shift[k] = cell_of(c->copy[raw->second], k) * b->side[k];
 }
 
+/// Those that reach into a wall are beside it, too, also where others hide their mirror images.
+static scree_status list_touches(const scree_gap_bodies *b, const uint8_t *beside, scree_gap_net *net,
+                                 scree_error *error)
+{
+    const int d = b->dimension;
+    scree_status status = scree_allocate(&net->touch, b->count * 2 * (size_t)d, sizeof *net->touch, error);
+    for (uint32_t i = 0; i < b->count && !status; i++)
+        for (int k = 0; k < 2 * d; k++) {
+            const scree_gap_touch touch = {i,
+                                           k < d ? 2 * (d - 1 - k) : 2 * (k - d) + 1}; // in the order of their images
+            if (b->periodic >> touch.wall / 2 & 1) continue;
+            if (beside[i] >> touch.wall & 1 || scree_gap_of_touch(b, &touch) < 0)
+                net->touch[net->touch_count++] = touch;
+        }
+    return status;
+}
+
 scree_status scree_gap_net_build(const scree_gap_bodies *bodies, scree_gap_net *net, scree_error *error)
 {
     cloud c = {0};
     scree_simplices simplices = {0};
     raw_edge *edge = NULL;
+    uint8_t *beside = NULL;
     size_t count = 0;
     const size_t corners = (size_t)bodies->dimension + 1;
     *net = (scree_gap_net){0};
@@ -174,9 +194,12 @@ scree_status scree_gap_net_build(const scree_gap_bodies *bodies, scree_gap_net *
         status = scree_simplices_build_weighted(c.point, c.radius, c.count, bodies->dimension, &simplices, error);
     if (!status) status = list_edges(&simplices, corners, bodies->count, &edge, &count, error);
     if (!status) status = scree_allocate(&net->edge, count, sizeof *net->edge, error);
-    if (!status) status = scree_allocate(&net->touch, count, sizeof *net->touch, error);
-    for (size_t k = 0; k < count && !status; k++) add_edge(bodies, &c, &edge[k], net);
+    if (!status) status = scree_allocate(&beside, bodies->count, sizeof *beside, error);
+    for (size_t k = 0; k < count && !status; k++) add_edge(bodies, &c, &edge[k], net, beside);
+    if (!status) status = list_touches(bodies, beside, net, error);
+    if (!status) net->hole = scree_gap_hole_find(&simplices, c.point, c.radius, bodies->dimension, bodies->side);
     scree_release(&edge);
+    scree_release(&beside);
     scree_release(&simplices.vertex);
     scree_release(&simplices.neighbour);
     destroy_cloud(&c);

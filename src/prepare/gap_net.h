@@ -1,10 +1,10 @@
 /// Who is beside whom in a packing: edges of the weighted Delaunay triangulation of the bodies, and which bodies are
 /// beside which wall of the box. Walls are mirrors and faces of a periodic cell repeat the bodies: a body that shares
-/// an edge with its own mirror image is beside the wall.
+/// an edge with its own mirror image is beside the wall, and one that reaches into it.
 #ifndef SCREE_PREPARE_GAP_NET_H
 #define SCREE_PREPARE_GAP_NET_H
 
-#include "base/memory.h"
+#include "prepare/gap_hole.h"
 
 /// Bodies in a box from the origin to `side`, in any unit of length.
 typedef struct scree_gap_bodies {
@@ -30,6 +30,7 @@ typedef struct scree_gap_net {
     size_t edge_count;
     scree_gap_touch *touch; ///< in the order of bodies
     size_t touch_count;
+    scree_gap_hole hole; ///< the widest
 } scree_gap_net;
 
 /// Makes `net`. Errors: memory; Qhull. Cost: some 10 microseconds a disc, 60 a sphere.

@@ -23,10 +23,17 @@ static const break_row rows[] = {
     {{"cracks", "particles at the end, coloured by the number of their bonds that have broken", SCREE_USUAL}, SCENE},
 };
 
+static bool any_broken(const scree_plot_run *run)
+{
+    const double *tension = scree_series_get(&run->series, "broken_tension"),
+                 *shear = scree_series_get(&run->series, "broken_shear");
+    const size_t last = run->series.row_count - 1;
+    return run->series.row_count > 0 && tension && shear && tension[last] + shear[last] > 0;
+}
+
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
 {
-    const bool has_bonds = scree_series_get(&run->series, "broken_tension") != NULL;
-    return has_bonds && (((const break_row *)figure)->kind == CHART || run->dimension == 2);
+    return any_broken(run) && (((const break_row *)figure)->kind == CHART || run->dimension == 2);
 }
 
 static bool any_finite(const double *value, size_t count)

@@ -103,4 +103,10 @@ expect 2 'between -1 and 0.5' "$scree" stability "${small[@]}" --young-modulus 1
 expect 2 'alone' "$scree" stability "${small[@]}" --poisson-ratio 0.3
 expect 2 'is no number' "$scree" stability "${small[@]}" --young-modulus soft
 expect 2 'read as it stands' "$scree" stability out --at deform
+# --- figures of broken bonds where some broke
+expect 0 '^' "$scree" run ddem-uniaxial --quick -q -o whole
+expect 0 'energy-time' ls whole/figures
+[[ "$output" != *broken-bonds* && "$output" != *cracks* ]] || complain "a chart of bonds of which none broke"
+expect 0 '^' "$scree" run ddem-failure --quick -q -o broken --set particles.count=60 --set stages.press.duration='0.3 ms'
+if (($("$scree" get broken bonds_broken_shear) > 0)); then expect 0 'broken-bonds.*cracks' bash -c 'echo $(ls broken/figures)'; else complain "no bond broke"; fi
 finish 'specimens'

@@ -36,10 +36,10 @@ typedef struct sample {
     double side[3];
 } sample;
 
-static void prepare(const char *text, sample *s)
+static void prepare_with(const char *text, const char *const *keys, size_t count, sample *s)
 {
     scree_error error;
-    s->c = case_read(text, NULL, 0);
+    s->c = case_read(text, keys, count);
     check(scree_model_build(&s->c->config, &s->model, &error), &error);
     check(scree_prepare(&s->model, &s->model.stages[0], &s->state, &error), &error);
     const bool in_3d = s->state.dimension == 3;
@@ -47,6 +47,11 @@ static void prepare(const char *text, sample *s)
     s->side[0] = -plate[SCREE_WALL_RIGHT].position;
     s->side[in_3d ? 2 : 1] = -plate[SCREE_WALL_TOP].position;
     if (in_3d) s->side[1] = -plate[SCREE_WALL_BACK].position;
+}
+
+static void prepare(const char *text, sample *s)
+{
+    prepare_with(text, NULL, 0, s);
 }
 
 static void destroy(sample *s)
@@ -201,6 +206,23 @@ static void spheres_fill_a_cube(void **unused)
     destroy(&s);
 }
 
+/// Packings in which one sphere was left pressed into another by 0.75 and 0.8 mean radii, and one also into a wall that
+/// others hid from it.
+static void crowded_spheres_find_room(void **unused)
+{
+    (void)unused;
+    static const char *const solid[] = {"stages.prepare.solid_fraction=60 %", "stages.prepare.solid_fraction=64 %"};
+    static const char *const seed[] = {"seed=1", "seed=3"};
+    for (int k = 0; k < 2; k++) {
+        sample s;
+        found f;
+        const char *keys[] = {solid[k], seed[k], "particles.count=400"};
+        prepare_with(SPACE("solid_fraction: 64 %"), keys, 3, &s);
+        expect_report(&s, 0.01, &f);
+        destroy(&s);
+    }
+}
+
 static void same_seed_same_sample(void **unused)
 {
     (void)unused;
@@ -265,6 +287,27 @@ static void large_neighbours_share_an_edge(void **unused)
     scree_gap_net_destroy(&net);
 }
 
+/// A square lattice that lacks a disc.
+static void the_widest_hole_is_found(void **unused)
+{
+    (void)unused;
+    double at[3 * 24];
+    size_t count = 0;
+    for (int i = 0; i < 25; i++) {
+        if (i == 8) continue;
+        at[3 * count] = 1 + 2 * (i % 5);
+        at[3 * count + 1] = 1 + 2 * (i / 5);
+        at[3 * count++ + 2] = 1;
+    }
+    const scree_gap_bodies b = {.dimension = 2, .count = count, .side = {10, 10}, .at = at};
+    scree_gap_net net;
+    scree_error error;
+    check(scree_gap_net_build(&b, &net, &error), &error);
+    assert_true(fabs(net.hole.centre[0] - 7) < 1e-9 && fabs(net.hole.centre[1] - 3) < 1e-9);
+    assert_true(fabs(net.hole.power - 3) < 1e-9);
+    scree_gap_net_destroy(&net);
+}
+
 static void expect_error(const char *text, const char *field, const char *part)
 {
     sample s = {.c = case_read(text, NULL, 0)};
@@ -280,7 +323,8 @@ static void expect_error(const char *text, const char *field, const char *part)
 static void what_cannot_be_is_refused(void **unused)
 {
     (void)unused;
-    expect_error(SPACE("solid_fraction: 80 %, gap_scatter: 2 %, rounds: 25"), "stages.0.solid_fraction", "ask for at most");
+    expect_error(SPACE("solid_fraction: 80 %, gap_scatter: 2 %, rounds: 25"), "stages.0.solid_fraction",
+                 "ask for at most");
     expect_error(PLANE("solid_fraction: 93 %, rounds: 2"), "stages.0.gap_scatter", "more rounds");
     scree_case *c = NULL;
     scree_problems *problems = NULL;
@@ -324,7 +368,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(discs_fill_a_square),       cmocka_unit_test(discs_fill_a_cell),
-        cmocka_unit_test(spheres_fill_a_cube),       cmocka_unit_test(same_seed_same_sample),
+        cmocka_unit_test(spheres_fill_a_cube),       cmocka_unit_test(crowded_spheres_find_room),
+        cmocka_unit_test(same_seed_same_sample),     cmocka_unit_test(the_widest_hole_is_found),
         cmocka_unit_test(species_keep_their_sizes),  cmocka_unit_test(large_neighbours_share_an_edge),
         cmocka_unit_test(what_cannot_be_is_refused), cmocka_unit_test(memory_that_runs_out),
     };
