@@ -73,6 +73,9 @@ expect 2 '--kernel: .*mean diameters' "$scree" measure pile1 --kernel -1
 expect 2 '--axis: ' "$scree" measure pile1 --axis nowhere
 expect 2 '--points: .*odd' "$scree" measure pile1 --points 40
 expect 2 '--at: .*no snapshot of .nostage.*end.*pour' "$scree" measure pile1 --at nostage
+expect 2 '--at: the run does not reach .1e.06 s.' "$scree" measure pile1 --at '1e6 s'
+time=$("$scree" measure pile1 --at '#8' --no-figures 2>/dev/null | awk '$1 == "time" { print $2 }')
+expect 0 "time +$time" "$scree" measure pile1 --at "$time s" --no-figures
 expect 2 '--from: ' "$scree" measure pile1 --at mean:2 --from start
 expect 2 '--at: there is no grain to average over.*another snapshot' "$scree" measure pile1 --at start
 expect 2 'no grain is in both' "$scree" measure pile1 --from start

@@ -45,6 +45,7 @@ same "$(get again state_checksum)" "$(get taken state_checksum)" 'after a restar
 expect 2 'loads.0.upper: no coordinate of .upper. may be as small' "$scree" check flight.yaml --set 'loads.0.upper=[-2 m, 1 m]'
 expect 2 'loads.0.upper: the region of the outlet lies within the wall .floor.' \
     "$scree" run flight.yaml -o bad -q --set 'loads.0.lower=[-1 m, -3 m]' --set 'loads.0.upper=[1 m, -2 m]'
+expect 2 'loads.0.upper.*within the wall .floor.' "$scree" check flight.yaml --set 'loads.0.lower=[-1 m, -3 m]' --set 'loads.0.upper=[1 m, -2 m]'
 sed 's/^loads: .*/loads: [{load: outlet, name: a, lower: [-1 m, -1 m], upper: [0 m, 1 m], removes: no}, {load: outlet, lower: [-1 m, -1 m], upper: [5 mm, 1 m]}]/' flight.yaml >named.yaml
 expect 0 '' "$scree" run named.yaml -o named -q
 same "$(get named outlet2_outflow)" 2 'an outlet without a name'

@@ -36,6 +36,19 @@ same "$low $high" "0 0" "lateral strain between plates that stand"
 read -r low high < <(range o strain_yy 3)
 within "strain at which unloading begins" 0.00499 0.00501 "$high"
 within "strain at its end" 0.00399 0.00401 "$low"
+# Charts go through both stages, and so does the peak, which lies where the strain turns.
+expect 0 'stress-ratio.svg' "$scree" plot o --only stress-ratio
+expect 0 'volumetric-strain.svg' "$scree" plot o --only volumetric-strain
+for chart in stress-ratio volumetric-strain; do
+    read -r most last < <(awk -F, 'NR > 1 { if ($1 > most) most = $1; last = $1 } END { print most, last }' o/figures/$chart.csv)
+    within "largest strain of $chart" 0.499 0.501 "$most"
+    within "last strain of $chart" 0.399 0.401 "$last"
+done
+read -r most last < <(awk -F, 'NR > 1 { if ($2 > most) most = $2; last = $2 } END { print most, last }' o/figures/volumetric-strain.csv)
+within "volumetric strain, compression positive" 0.2 0.6 "$most"
+within "its end, behind both stages" 0.15 "$most" "$last"
+expect 0 'path-p-q' "$scree" plot s --only path-p-q
+grep -q 'shear stress (kPa)' s/figures/path-p-q.gp || complain "the stress path of a sheared sample has no shear stress"
 
 expect 2 'strain_rate' "$scree" run oedometer "${small[@]}" --set "stages.load.stress={yy: 1 kPa}" -o no
 

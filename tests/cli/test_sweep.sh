@@ -51,6 +51,12 @@ expect 2 '^a-case.yaml: this is a case, not a sweep: ' "$scree" sweep a-case.yam
 grep -v '^scree:' a-case.yaml >bare-case.yaml
 expect 2 '^bare-case.yaml: this is a case, not a sweep: ' "$scree" sweep bare-case.yaml
 
+# --- members draw where the sweep says so
+grep -v 'output.figures' tiny.yaml >silent.yaml
+expect 0 'means in' "$scree" sweep silent.yaml -o silent --jobs 2 --realisations 1
+[ -n "$(ls silent/members/000-friction=0.2-seed=1/figures 2>/dev/null)" ] && complain 'a member has figures that nobody asked for'
+[ -s silent/figures/peak_stress_ratio-over-friction.svg ] || complain 'the sweep has no figures'
+
 # --- a whole sweep, then nothing left to do
 expect 0 'means in s/table.csv' "$scree" sweep tiny.yaml -o s --jobs 2
 for file in s/members.csv s/table.csv s/sweep.json s/curves/stress_ratio-over-axial_strain.csv \
