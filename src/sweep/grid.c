@@ -39,8 +39,9 @@ void scree_slug(char *slug, size_t size, const char *text)
 
 static bool says(const scree_sweep_assignment *assignment, size_t count, const char *path)
 {
+    const size_t length = strlen(path);
     for (size_t k = 0; k < count; k++)
-        if (strcmp(assignment[k].path, path) == 0) return true;
+        if (strncmp(assignment[k].text, path, length) == 0 && assignment[k].text[length] == '=') return true;
     return false;
 }
 

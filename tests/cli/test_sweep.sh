@@ -53,6 +53,7 @@ expect 2 '^bare-case.yaml: this is a case, not a sweep: ' "$scree" sweep bare-ca
 
 # --- members draw where the sweep says so
 grep -v 'output.figures' tiny.yaml >silent.yaml
+expect 0 '4 members: ' "$scree" sweep silent.yaml --dry-run --set particles.count=30
 expect 0 'means in' "$scree" sweep silent.yaml -o silent --jobs 2 --realisations 1
 [ -n "$(ls silent/members/000-friction=0.2-seed=1/figures 2>/dev/null)" ] && complain 'a member has figures that nobody asked for'
 [ -s silent/figures/peak_stress_ratio-over-friction.svg ] || complain 'the sweep has no figures'
