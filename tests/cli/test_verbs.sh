@@ -167,8 +167,8 @@ expect 0 'height-over-time.svg$' "$scree" plot out --y height
 same "$(($(wc -l <out/figures/height-over-time.csv)))" "$(($(wc -l <out/series.csv)))" "rows of a chart of all stages"
 expect 0 'over-time.svg$' "$scree" plot out --y height,height
 same "$(grep -o 'linewidth [0-9]* ' out/figures/height-height-over-time.gp | sort | uniq -c | tr -s ' \n' ' ')" ' 1 linewidth 2 1 linewidth 5 ' "a line that hides another"
-expect 2 "^scree plot: --y: .*no column 'hight' \(accepted: height\)$" "$scree" plot out --y hight
-expect 2 "^scree plot: --x: .*no column 'axial_strai' \(accepted: axial_strain\)$" "$scree" plot out --y height --x axial_strai
+expect 2 "^scree plot: --y: .*no column .hight. \(accepted: height, and others" "$scree" plot out --y hight
+expect 2 "^scree plot: --x: .*no column .axial_strai. \(accepted: axial_strain, " "$scree" plot out --y height --x axial_strai
 expect 2 "^scree plot: --y: .*another: 'coordination' \(accepted: m\)$" "$scree" plot out --y height,coordination
 expect 2 "^scree plot: --stage: .*'shear' \(accepted: a number, .*, compress\)$" "$scree" plot out --y height --stage shear
 expect 2 '^scree plot: --x: needs --y' "$scree" plot out --x time
