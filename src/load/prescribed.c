@@ -277,6 +277,7 @@ const scree_module scree_module_prescribed = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .bound = scree_prescribed_bound,
     .work = work,
     .columns = SCREE_RESULTS(rows, measure),

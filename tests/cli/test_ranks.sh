@@ -94,9 +94,49 @@ stages:
   - {stage: relax, name: shake, duration: 0.05 s}
 $rest
 EOF
+# A path in stress and strain, with grains that stick; layers that are driven and pushed, a piston among them.
+cat >path.yaml <<EOF
+scree: 1
+name: path
+dimension: 3
+seed: 5
+materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5, surface_energy: 0.02 J/m2, rolling_friction: 0.1}]
+$spheres
+contact: {law: hertz_jkr}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: xyz}
+stages:
+  - {stage: prepare, method: gas, solid_fraction: 30 %}
+  - {stage: confine, pressure: 5 kPa, unbalanced_limit: 0.3}
+  - {stage: load_path, strain_rate: {zz: -5 1/s}, keep: volume, reverse_strain: 1 %, cycles: 1}
+$rest
+EOF
+cat >block.yaml <<EOF
+scree: 1
+name: block
+seed: 6
+$materials
+$discs
+contact: {law: hertz_dmt}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: x}
+selections:
+  - {select: band, name: floor, axis: y, measured: low, from: 0 mm, to: 3 mm}
+  - {select: band, name: lid, axis: y, measured: high, from: 0 mm, to: 3 mm}
+  - {select: band, name: some, axis: y, measured: low, from: 4 mm, to: 6 mm}
+loads:
+  - {load: prescribed, selection: floor, from: shear, velocity_x: 0, velocity_y: 0, spin_z: 0}
+  - {load: prescribed, selection: lid, from: shear, velocity_x: {from: 0 m/s, to: 0.5 m/s, begin: 0 s, end: 5 ms, smooth: yes}, velocity_y: -5 mm/s, spin_z: 0, until_force: 0.2 N}
+  - {load: prescribed, selection: some, from: shear, force_x: 1 mN, per: selection}
+stages:
+  - {stage: prepare, method: gas, aspect_ratio: 0.5, solid_fraction: 60 %}
+  - {stage: confine, pressure: 1 kPa, unbalanced_limit: 0.3}
+  - {stage: relax, name: shear, duration: 20 ms}
+$rest
+EOF
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid; do
+for name in shear layer drum lid path block; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -119,7 +159,7 @@ refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@
 refused "boundary 'pressure'" biaxial --quick -o no
 refused "stage 'collide'" restitution -o no
 refused "law 'polygon_overlap'" pile-relax --quick -o no
-refused "load 'prescribed'" layer-shear --quick -o no
+refused "stage 'pour'" hopper --quick -o no
 refused "source" pour-discs --quick -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
 
