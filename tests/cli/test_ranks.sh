@@ -134,9 +134,54 @@ stages:
   - {stage: relax, name: shear, duration: 20 ms}
 $rest
 EOF
+# Grains from a point, which has to wait for them to fall, and from a line that follows the top of the pile, onto a table:
+# what falls off is taken out, beside it by an outlet, else where nothing stands.
+cat >pour.yaml <<EOF
+scree: 1
+name: pour
+seed: 7
+gravity: [0, -9.81]
+materials: [{name: glass, young_modulus: 0.3 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 32}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+walls: [{shape: box, name: table, side: outside, lower: [-6 mm, -4 mm], upper: [6 mm, 0]}]
+loads: [{load: outlet, lower: [6 mm, -20 mm], upper: [40 mm, -2 mm], every: 20}]
+sources:
+  - {source: point, name: spout, place: [1 mm, 12 mm], interval: 2 ms, velocity: [0, -0.3], spread: [0.1, 0]}
+  - {source: line, name: row, start: [-4 mm, 10 mm], end: [-1 mm, 10 mm], interval: 3 ms, velocity: [0.1, -0.2], width: plateau, above: 6 mm, layer: 4}
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, past: take_out, unbalanced_limit: 0.5, rest_time: 8 ms}
+$rest
+EOF
+# Layers of spheres into a hopper, until it is as full as wanted; what has run out is taken out.
+cat >rain.yaml <<EOF
+scree: 1
+name: rain
+dimension: 3
+seed: 8
+gravity: [0, 0, -9.81]
+materials: [{name: glass, young_modulus: 0.2 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+particles: {shape: sphere, material: glass, radius_min: 0.8 mm, radius_max: 1.2 mm, count: 90}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+walls:
+  - {shape: cone, name: funnel, start: [0, 0, 0], end: [0, 0, 8 mm], radius_start: 3 mm, radius_end: 7 mm, ends: open}
+  - {shape: cylinder, name: silo, start: [0, 0, 8 mm], end: [0, 0, 40 mm], radius: 7 mm, ends: open}
+  - {shape: plane, name: floor, point: [0, 0, -10 mm], normal: [0, 0, 1]}
+loads: [{load: outlet, lower: [-1 m, -1 m, -1 m], upper: [1 m, 1 m, 1 mm], every: 20}]
+sources: [{source: region, name: cloud, lower: [-4 mm, -4 mm, 16 mm], upper: [4 mm, 4 mm, 16 mm], batch: layer, interval: 5 ms, velocity: [0, 0, -0.3]}]
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, name: fill, count: 45}
+  - {stage: relax, name: flow, duration: 10 ms}
+  - {stage: pour, name: more, height: 6 mm}
+$rest
+EOF
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid path block; do
+for name in shear layer drum lid path block pour rain; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -159,9 +204,27 @@ refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@
 refused "boundary 'pressure'" biaxial --quick -o no
 refused "stage 'collide'" restitution -o no
 refused "law 'polygon_overlap'" pile-relax --quick -o no
-refused "stage 'pour'" hopper --quick -o no
-refused "source" pour-discs --quick -o no
+refused "acts in a stage: 'sleep'" pour.yaml --set stages.pour.sleep_window="1 ms" -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
+
+# --- what was poured, waited and was taken out; errors tell of the whole sample; other numbers of processes go on
+for result in spout_waits row_waits row_layers outlet_outflow; do
+    checks=$((checks + 1)); [ "$("$scree" get one-pour $result)" -gt 0 ] || complain "$result of pour is nothing"
+done
+checks=$((checks + 1)); [ $(($("$scree" get one-pour particles) + $("$scree" get one-pour outlet_outflow))) -lt 32 ] || complain 'nothing of pour was lost'
+for result in cloud_waits outlet_outflow; do
+    checks=$((checks + 1)); [ "$("$scree" get one-rain $result)" -gt 0 ] || complain "$result of rain is nothing"
+done
+grep -q 'the pile is as high as wanted' one-rain/log.txt || complain 'rain did not end with the height'
+"$scree" run pour.yaml -o error-one --set stages.pour.past=stop --quiet --threads 1 2>error-one.txt
+expect 3 'has fallen past everything that stands' on 3 pour.yaml -o error --set stages.pour.past=stop --threads 1
+grep -qF "$(grep -o 'step [0-9]*: particle.* m, has' error-one.txt)" <<<"$output" || complain "another grain is lost: $output"
+"$scree" run pour.yaml -o error-one -f --set stages.pour.patience="10 ms" --set sources.spout.place="[1 mm, 5 mm]" --quiet --threads 1 2>error-one.txt
+expect 3 "source 'spout' has been blocked" on 3 pour.yaml -o error -f --set stages.pour.patience="10 ms" --set sources.spout.place="[1 mm, 5 mm]" --threads 1
+grep -qF "$(grep -o 'step [0-9]*: source.*' error-one.txt)" <<<"$output" || complain "another source is blocked: $output"
+expect 0 '|warning' on 3 pour.yaml -o again --set output.checkpoint_steps=1500 --threads 1
+expect 0 '|warning' on 2 --restart again --from 3000
+same "$(checksum again)" "$(checksum one-pour)" 'pour goes on with two processes in place of three'
 
 # --- a process dies; the checkpoint is whole, and any number of processes goes on from it
 mpirun --oversubscribe -n 4 "$scree" run drum.yaml -o killed --set output.checkpoint_steps=200 --quiet --threads 1 >killed.txt 2>&1 </dev/null &
