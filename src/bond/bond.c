@@ -104,7 +104,7 @@ static bool in_use(const scree_context *c)
     return scree_persistent(c->state)->count > 0;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_CONTACTS, settle}};
+static const scree_pass passes[] = {{SCREE_PHASE_CONTACTS, .run = settle}};
 
 static double work(const scree_state *state)
 {

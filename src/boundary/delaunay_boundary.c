@@ -92,7 +92,7 @@ static scree_status refresh(const scree_context *c, scree_error *error)
     return c->boundary->open ? SCREE_OK : scree_boundary_refresh(c->model, c->state, error);
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, refresh}};
+static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, .run = refresh}};
 
 static const scree_result columns[] = {{"boundary_count", "1", "particles on the Delaunay boundary"}};
 

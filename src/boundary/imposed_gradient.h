@@ -47,9 +47,9 @@ void scree_imposed_deform(const scree_context *context, const scree_demand *dema
 /// The passes of such a boundary; add_forces: a pass, its forces and the first half of their work.
 #define SCREE_IMPOSED_PASSES(add_forces)                                                                               \
     {                                                                                                                  \
-        {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh},                         \
+        {SCREE_PHASE_FOLLOW, .run = scree_imposed_work}, {SCREE_PHASE_SEARCH, .run = scree_imposed_refresh},           \
         {                                                                                                              \
-            SCREE_PHASE_LOADS, add_forces                                                                              \
+            SCREE_PHASE_LOADS, .run = add_forces                                                                       \
         }                                                                                                              \
     }
 

@@ -254,7 +254,7 @@ static scree_status load(const scree_context *c, scree_error *error)
 }
 
 static const scree_pass passes[] = {
-    {SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_SEARCH, refresh}, {SCREE_PHASE_LOADS, load}};
+    {SCREE_PHASE_FOLLOW, .run = follow}, {SCREE_PHASE_SEARCH, .run = refresh}, {SCREE_PHASE_LOADS, .run = load}};
 
 // ---- what is stored ----------------------------------------------------------------------------------------------
 

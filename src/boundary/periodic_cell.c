@@ -86,7 +86,7 @@ static scree_status settle(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, move}, {SCREE_PHASE_BODIES, settle}};
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = move}, {SCREE_PHASE_BODIES, .run = settle}};
 
 const scree_module scree_module_periodic_cell = {
     .name = "periodic_cell",

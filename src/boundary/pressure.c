@@ -348,7 +348,7 @@ static double bound(const scree_context *c)
 }
 
 static const scree_pass passes[] = {
-    {SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_SEARCH, attack}, {SCREE_PHASE_LOADS, load}};
+    {SCREE_PHASE_FOLLOW, .run = follow}, {SCREE_PHASE_SEARCH, .run = attack}, {SCREE_PHASE_LOADS, .run = load}};
 
 const scree_module scree_module_pressure = {
     .name = "pressure",

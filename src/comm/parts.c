@@ -69,7 +69,8 @@ static void choose(const scree_state *state, scree_parts *parts, int32_t *to)
 static scree_status cut(const scree_state *state, scree_parts *parts, size_t begin, size_t end, scree_error *error)
 {
     scree_vector *place;
-    if (parts->seed) return SCREE_OK;
+    // Where there are no bodies nobody asks for the parts.
+    if (parts->seed || scree_state_total(state) == 0) return SCREE_OK;
     scree_status status = scree_allocate(&place, end - begin + 1, sizeof *place, error);
     for (size_t row = begin; row < end && !status; row++) scree_body_position(state, row, place[row - begin]);
     if (!status) status = scree_comm_cut((const double(*)[3])place, end - begin, state->dimension, error);
@@ -422,13 +423,26 @@ static void count_all(const scree_state *state, size_t *bodies, size_t *contacts
     }
 }
 
+/// Contacts lie with both of their bodies until a list is made of them: leaves each with its first one.
+static scree_status drop_copies(scree_state *state, const scree_work *work, scree_error *error)
+{
+    scree_body_array list[4];
+    size_t arrays = 0, kept = 0;
+    scree_status status = list_contacts(state, work, state->contact_count, list, &arrays, error);
+    for (size_t c = 0; c < state->contact_count && !status; c++)
+        if (scree_state_row_of(state, state->contact[c].first) != SCREE_NO_ROW) move_element(list, arrays, c, kept++);
+    if (!status) state->contact_count = kept;
+    return status;
+}
+
 scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS], remembered[4];
     size_t bodies[SCREE_PROCESSES], contacts[SCREE_PROCESSES], total[2], some = 0;
     scree_parts *parts = work->parts;
+    scree_status status = work->valid ? SCREE_OK : drop_copies(state, work, error);
     count_all(state, bodies, contacts, total);
-    scree_status status = scree_store_reserve_bodies(state, total[0], false, error);
+    if (!status) status = scree_store_reserve_bodies(state, total[0], false, error);
     if (!status) status = gather_arrays(parts, list, scree_body_arrays(state, list), bodies, total[0], error);
     if (!status) status = list_contacts(state, work, total[1], remembered, &some, error);
     if (!status) status = gather_arrays(parts, remembered, some, contacts, total[1], error);

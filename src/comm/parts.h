@@ -40,7 +40,8 @@ typedef struct scree_parts {
 /// All processes call it. Errors: memory.
 scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
-/// Back to a whole state, in all processes. Contacts have been saved, and are in the state behind it. Errors: memory.
+/// Back to a whole state, in all processes. Contacts have been saved, or no list has been made since the state was
+/// spread; they are in the state behind it. Errors: memory.
 scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Before a list is made anew: bodies go to the processes in whose parts they lie, with all that fields declare and

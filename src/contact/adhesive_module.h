@@ -136,6 +136,7 @@ static const scree_choice rolling_resistances[] = {
         .keys_count = 3,                                                                                               \
         .rules = rules,                                                                                                \
         .law = &law,                                                                                                   \
+        .spreads = true,                                                                                               \
         .fields = fields,                                                                                              \
         .field_count = sizeof fields / sizeof *fields,                                                                 \
     }

@@ -506,11 +506,11 @@ static scree_status begin(const scree_context *c, scree_error *error)
     return in_use(c) ? scree_state_ask_for_stretches(c->state, error) : SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, strain_bodies},
-                                    {SCREE_PHASE_FIRST_HALF, clear_attack},
-                                    {SCREE_PHASE_SEARCH, solve},
-                                    {SCREE_PHASE_BODIES, add_attack},
-                                    {SCREE_PHASE_SECOND_HALF, settle}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = strain_bodies},
+                                    {SCREE_PHASE_FIRST_HALF, .run = clear_attack},
+                                    {SCREE_PHASE_SEARCH, .run = solve},
+                                    {SCREE_PHASE_BODIES, .run = add_attack},
+                                    {SCREE_PHASE_SECOND_HALF, .run = settle}};
 
 const scree_module scree_module_deformation = {
     .name = "deformation",

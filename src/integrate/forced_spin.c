@@ -119,7 +119,7 @@ static scree_status settle(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_LOADS, settle}};
+static const scree_pass passes[] = {{SCREE_PHASE_LOADS, .run = settle}};
 
 const scree_module scree_module_forced_spin = {
     .name = "forced_spin",

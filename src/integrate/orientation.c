@@ -169,7 +169,7 @@ static bool in_use(const scree_context *c)
     return is_kept(c->model);
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, turn}};
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = turn}};
 
 const scree_module scree_module_orientation = {
     .name = "orientation",

@@ -498,7 +498,7 @@ static const scree_field fields[] = {
     DERIVED(bodies, "changes of the bodies, then"),
 };
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, decide}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = decide}};
 
 static bool told(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME])
 {

@@ -232,7 +232,7 @@ static const scree_field fields[] = {
                     "its work in the first half of the step that comes"),
 };
 
-static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_RESULTANTS, damp}};
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = follow}, {SCREE_PHASE_RESULTANTS, .run = damp}};
 
 static const scree_result columns[] = {
     {"work_background_damping", "J", "work of the background damping on the bodies"}};

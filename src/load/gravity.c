@@ -118,7 +118,7 @@ static bool in_use(const scree_context *c)
     return false;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, decide}, {SCREE_PHASE_FOLLOW, follow}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = decide}, {SCREE_PHASE_FOLLOW, .run = follow}};
 
 const scree_module scree_module_gravity = {
     .name = "gravity",

@@ -221,7 +221,18 @@ static const scree_field fields[] = {
                       "their mass", SCREE_RANGE(0, DBL_MAX)),
 };
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, decide}};
+/// Whether there is something to be taken out.
+static scree_status takes_out(const scree_context *c, bool *wanted, scree_error *error)
+{
+    const scree_outlet *outlet;
+    (void)error;
+    *wanted = false;
+    for (size_t k = 0; (outlet = outlet_of(c->model, k)) && !*wanted; k++)
+        *wanted = outlet->removes && c->state->step % (uint64_t)outlet->every == 0 && look(c->state, outlet).count > 0;
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = decide, .whole = takes_out}};
 
 static const scree_result columns[] = {
     {"_outflow", "1", "particles that have come into the region of the outlet of this name, or were taken out there"},
@@ -265,6 +276,7 @@ const scree_module scree_module_outlet = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .columns = SCREE_RESULTS(columns, sample),
     .results = SCREE_RESULTS(columns, sample),
     .told = told,

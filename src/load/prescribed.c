@@ -193,11 +193,11 @@ static scree_status depart(const scree_context *c, scree_error *error)
     return status ? status : scree_prescribed_depart(c, error);
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, depart},
-                                    {SCREE_PHASE_FIRST_HALF, scree_prescribed_move},
-                                    {SCREE_PHASE_FOLLOW, scree_prescribed_attack},
-                                    {SCREE_PHASE_LOADS, scree_prescribed_push},
-                                    {SCREE_PHASE_RESULTANTS, scree_prescribed_hold}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = depart},
+                                    {SCREE_PHASE_FIRST_HALF, .run = scree_prescribed_move},
+                                    {SCREE_PHASE_FOLLOW, .run = scree_prescribed_attack},
+                                    {SCREE_PHASE_LOADS, .run = scree_prescribed_push},
+                                    {SCREE_PHASE_RESULTANTS, .run = scree_prescribed_hold}};
 
 // ---- what each tells ---------------------------------------------------------------------------------------------
 
@@ -277,6 +277,7 @@ const scree_module scree_module_prescribed = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .bound = scree_prescribed_bound,
     .work = work,
     .columns = SCREE_RESULTS(rows, measure),

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 
+#include <stdbool.h>
+
 typedef struct scree_model scree_model;
 typedef struct scree_state scree_state;
 typedef struct scree_work scree_work;
@@ -42,6 +44,10 @@ typedef struct scree_context {
 typedef struct scree_pass {
     scree_phase phase;
     scree_status (*run)(const scree_context *context, scree_error *error);
+    /// Of a pass that in some steps looks at all bodies or changes which there are: whether it does in this one, found
+    /// out by all processes together. The sample is then put together in each of them for the pass, and spread again
+    /// behind it. In SCREE_PHASE_DECIDE only, where the contacts are those of the sums. NULL: never.
+    scree_status (*whole)(const scree_context *context, bool *wanted, scree_error *error);
 } scree_pass;
 
 #endif

@@ -45,7 +45,7 @@
         row(square) row(centred_rectangular) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth)       \
             row(dense) row(pair) row(bodies) row(file) row(empty) row(prepare) row(confine) row(compress) row(deform)  \
                 row(load_path) row(rotate_particle) row(relax) row(iterate) row(collide) row(bond) row(pour)           \
-                    row(point) row(line) row(region) row(background_damping) row(prescribed) row(outlet) row(plane)    \
+                    row(point) row(line) row(region) row(background_damping) row(outlet) row(prescribed) row(plane)    \
                         row(box) row(cylinder) row(cone) row(mesh) row(wall_polygon) row(uniform) row(two_sizes)       \
                             row(equal) row(normal) row(log_normal) row(power_law) row(table) row(grading)
 

@@ -208,7 +208,7 @@ static double bound(const scree_context *c)
     return largest;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_FIRST_HALF, kicked}, {SCREE_PHASE_LOADS, load}};
+static const scree_pass passes[] = {{SCREE_PHASE_FIRST_HALF, .run = kicked}, {SCREE_PHASE_LOADS, .run = load}};
 
 const scree_module scree_module_own_force = {
     .name = "own_force",

@@ -82,7 +82,8 @@ scree_status scree_ranks_check(scree_simulation *s, scree_error *error)
                 status = check_module(m, "particles of shape", error);
     for (int64_t k = 0; k < model->load_count && !status; k++)
         status = check_module(model->loads[k].kind, "load", error);
-    if (!status && model->source_count > 0) status = refuse("source", model->sources[0].name, error);
+    for (int64_t k = 0; k < model->source_count && !status; k++)
+        status = check_module(model->sources[k].kind, "source", error);
     return status ? status : check_stages(s, error);
 }
 
@@ -144,7 +145,7 @@ scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
 scree_status scree_ranks_gather(scree_simulation *s, scree_error *error)
 {
     if (!s->state.part) return SCREE_OK;
-    scree_status status = scree_contacts_save(&s->state, &s->work, error);
+    scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
     if (!status) status = scree_parts_gather(&s->state, &s->work, error);
     return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
 }

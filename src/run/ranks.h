@@ -23,7 +23,8 @@ scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree
 /// scree_ranks_check, of what shows in the state alone; memory.
 scree_status scree_ranks_spread(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
-/// Behind a step: the state is whole in all processes, with its list. Nothing happens where it is. Errors: memory.
+/// Behind a step, or within its phase decide: the state is whole in all processes, with its list. Nothing happens where
+/// it is. Errors: memory.
 scree_status scree_ranks_gather(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
 /// In all processes the largest number that one of them has.

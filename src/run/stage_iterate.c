@@ -30,7 +30,8 @@
 #include <math.h>
 #include <string.h>
 
-/// Of changes below this share of the strain the rounding of forces to quanta (2^-50 of their bound) shows in the factor.
+/// Of changes below this share of the strain the rounding of forces to quanta (2^-50 of their bound) shows in the
+/// factor.
 #define FLOOR 1e-7
 /// Times the first change: the iterates diverge.
 #define GROWTH 10
@@ -319,8 +320,9 @@ static const scree_stage stage_face = {.name = "iterate",
 
 static const scree_stage_numbers numbers = {.held = true, .still = true, .wrong = wrong};
 
-static const scree_pass passes[] = {
-    {SCREE_PHASE_FIRST_HALF, observe}, {SCREE_PHASE_FOLLOW, stay}, {SCREE_PHASE_SECOND_HALF, hold}};
+static const scree_pass passes[] = {{SCREE_PHASE_FIRST_HALF, .run = observe},
+                                    {SCREE_PHASE_FOLLOW, .run = stay},
+                                    {SCREE_PHASE_SECOND_HALF, .run = hold}};
 
 const scree_module scree_module_iterate = {
     .name = "iterate",

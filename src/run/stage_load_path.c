@@ -535,6 +535,7 @@ const scree_module scree_module_load_path = {
     .keys_count = 1,
     .numbers = &numbers,
     .stage = &stage_face,
+    .spreads = true,
     .state_size = sizeof(progress),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,

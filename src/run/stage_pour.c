@@ -229,6 +229,7 @@ const scree_module scree_module_pour = {
     .choice_of = CHOICE_OF(IS("stages", .meaning = "pours particles from the `sources`")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .spreads = true,
     .numbers = &numbers,
     .stage = &stage_face,
 };

@@ -8,6 +8,7 @@
 #include "comm/comm.h"
 #include "measure/measure.h"
 #include "run/guard.h"
+#include "run/ranks.h"
 #include "search/neighbours.h"
 
 #include <assert.h>
@@ -107,17 +108,17 @@ static scree_status guard(const scree_context *c, scree_error *error)
 }
 
 static const scree_pass core[] = {
-    {SCREE_PHASE_DECIDE, look_ahead},
-    {SCREE_PHASE_DECIDE, ask_for_moments},
-    {SCREE_PHASE_DECIDE, choose_step},
-    {SCREE_PHASE_DECIDE, control},
-    {SCREE_PHASE_FIRST_HALF, first_half},
-    {SCREE_PHASE_FOLLOW, advance_clock},
-    {SCREE_PHASE_SEARCH, refresh_neighbours},
-    {SCREE_PHASE_CONTACTS, predict_kick},
-    {SCREE_PHASE_CONTACTS, contact_forces},
-    {SCREE_PHASE_SECOND_HALF, second_half},
-    {SCREE_PHASE_GUARD, guard},
+    {SCREE_PHASE_DECIDE, .run = look_ahead},
+    {SCREE_PHASE_DECIDE, .run = ask_for_moments},
+    {SCREE_PHASE_DECIDE, .run = choose_step},
+    {SCREE_PHASE_DECIDE, .run = control},
+    {SCREE_PHASE_FIRST_HALF, .run = first_half},
+    {SCREE_PHASE_FOLLOW, .run = advance_clock},
+    {SCREE_PHASE_SEARCH, .run = refresh_neighbours},
+    {SCREE_PHASE_CONTACTS, .run = predict_kick},
+    {SCREE_PHASE_CONTACTS, .run = contact_forces},
+    {SCREE_PHASE_SECOND_HALF, .run = second_half},
+    {SCREE_PHASE_GUARD, .run = guard},
 };
 
 scree_context scree_step_context(scree_simulation *s)
@@ -155,11 +156,21 @@ void scree_step_compile(scree_simulation *s)
     }
 }
 
+/// A pass that wants the whole sample in this step has it.
+static scree_status run_pass(scree_simulation *s, const scree_pass *pass, const scree_context *c, scree_error *error)
+{
+    bool whole = false;
+    scree_status status = pass->whole && s->state.part ? pass->whole(c, &whole, error) : SCREE_OK;
+    if (!status && whole) status = scree_ranks_gather(s, error);
+    if (!status) status = pass->run(c, error);
+    return !status && whole ? scree_ranks_spread(s, error) : status;
+}
+
 scree_status scree_step(scree_simulation *s, scree_error *error)
 {
     const scree_context context = scree_step_context(s);
     scree_status status = SCREE_OK;
-    for (size_t k = 0; k < s->pass_count && !status; k++) status = s->passes[k].run(&context, error);
+    for (size_t k = 0; k < s->pass_count && !status; k++) status = run_pass(s, &s->passes[k], &context, error);
     return status;
 }
 

@@ -347,7 +347,7 @@ static bool in_use(const scree_context *c)
     return scree_wave_numbers_of(c->model) && scree_waves_of(c->state)->record_count > 0;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_GUARD, listen}};
+static const scree_pass passes[] = {{SCREE_PHASE_GUARD, .run = listen}};
 
 static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
 {

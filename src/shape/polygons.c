@@ -328,7 +328,7 @@ static scree_status pose(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, pose}};
+static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, .run = pose}};
 
 /// Outlines that are stored.
 static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)

@@ -58,7 +58,7 @@ static const scree_field fields[] = {
     LENGTH(right, "right end of it"),
 };
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, scree_pour}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = scree_pour, .whole = scree_pour_wants_all}};
 
 // ---- what each source tells --------------------------------------------------------------------------------------
 
@@ -97,6 +97,7 @@ const scree_module scree_module_births = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .columns = SCREE_RESULTS(results, tell),
     .results = SCREE_RESULTS(results, tell),
     .told = told,

@@ -72,5 +72,6 @@ const scree_module scree_module_line = {
     .choice_of = CHOICE_OF(IS("sources", .meaning = "a line, which may follow the top of the pile")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .spreads = true,
     .source = &(const scree_source_kind){.wide = true, .wrong = wrong, .place = place, .follows = follows},
 };

@@ -1,5 +1,6 @@
 /// Grains that have fallen past everything that stands: a pile that has spread past its plate. Those that are below the
 /// floor with all of their bounding circle stop the run, or are taken out (measure/removal.h).
+#include "comm/comm.h"
 #include "measure/removal.h"
 #include "shape/wall_set.h"
 #include "source/pour.h"
@@ -30,9 +31,30 @@ static scree_status find_floor(const scree_context *c, double *floor, scree_erro
         if (scree_body_held(state, row) >> up & 1)
             *floor = fmin(*floor, place[up] - scree_body_bounding_radius(state, row));
     }
-    if (*floor == INFINITY) *floor = -INFINITY;
+    double depth = -*floor;
+    scree_comm_maximum(state, &depth, 1);
+    *floor = depth == -INFINITY ? -INFINITY : -depth;
     scree_wall_triangles_destroy(&walls);
     return status;
+}
+
+static bool is_lost(const scree_state *state, size_t row, double floor)
+{
+    scree_vector place;
+    scree_body_position(state, row, place);
+    return place[state->dimension - 1] + scree_body_bounding_radius(state, row) < floor;
+}
+
+scree_status scree_pour_loses(const scree_context *c, bool *loses, scree_error *error)
+{
+    double floor;
+    int64_t count = 0;
+    scree_status status = find_floor(c, &floor, error);
+    if (status) return status;
+    for (size_t row = 0; row < c->state->count; row++) count += is_lost(c->state, row, floor);
+    scree_comm_add(c->state, &count, 1);
+    *loses = count > 0;
+    return SCREE_OK;
 }
 
 static scree_status stop_lost(const scree_context *c, uint32_t row, scree_error *error)
@@ -50,16 +72,13 @@ static scree_status stop_lost(const scree_context *c, uint32_t row, scree_error 
 
 scree_status scree_pour_look_for_lost(const scree_context *c, const scree_pour_config *stage, scree_error *error)
 {
-    const int up = c->state->dimension - 1;
     double floor;
     uint32_t *ids = NULL;
     size_t count = 0, id = 0;
     scree_status status = find_floor(c, &floor, error);
     if (!status) status = scree_allocate(&ids, c->state->count + 1, sizeof *ids, error);
     for (uint32_t row; !status && (row = scree_next_by_id(c->state, &id)) != SCREE_NO_ROW;) {
-        scree_vector place;
-        scree_body_position(c->state, row, place);
-        if (!(place[up] + scree_body_bounding_radius(c->state, row) < floor)) continue;
+        if (!is_lost(c->state, row, floor)) continue;
         ids[count++] = c->state->id[row];
         if (stage->past == SCREE_PAST_STOP) status = stop_lost(c, row, error);
     }

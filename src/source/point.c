@@ -33,5 +33,6 @@ const scree_module scree_module_point = {
     .choice_of = CHOICE_OF(IS("sources", .meaning = "one place")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .spreads = true,
     .source = &(const scree_source_kind){.wrong = wrong, .place = place},
 };

@@ -14,10 +14,14 @@
 /// each birth. All of it depends on the state alone, not on when samples are taken. So does the search for grains that
 /// have fallen past everything that stands, every LOOK_STEPS steps.
 ///
+/// Several processes. A birth, a look at the pile and the end of a patience are of the whole sample, which is put
+/// together in all of them then (scree_pour_wants_all); that a source waits is found, and remembered, by parts.
+///
 /// Cost: a step without a birth due costs nothing; an attempt one pass over the bodies; a birth a new neighbour list,
 /// and a table of contacts where the pile is measured.
 #include "source/pour.h"
 #include "base/vectors.h"
+#include "comm/comm.h"
 #include "prepare/birth.h"
 #include "search/neighbours.h"
 #include "shape/wall_set.h"
@@ -88,8 +92,8 @@ double scree_pour_patience(const scree_model *model, const scree_pour_config *st
 
 /// What is in the way of a birth.
 typedef struct obstacle {
-    enum { NOTHING, BODY, WALL, PLATE } what;
-    size_t index; ///< row, or number of the wall or plate
+    enum { NOTHING, BODY, WALL, PLATE, ELSEWHERE } what; ///< ELSEWHERE: a body of another process
+    size_t index;                                        ///< row, or number of the wall or plate
 } obstacle;
 
 static obstacle find_obstacle(const scree_state *state, const scree_work *work, const scree_vector place, double reach)
@@ -140,6 +144,14 @@ static scree_status stop_blocked(const step *s, int64_t index, const scree_vecto
                            (long long)state->stage.index, place[0], place[1], place[2], what, remedy);
 }
 
+/// Whether the source, which waits, has been blocked for longer than the stage has patience.
+static bool is_over(const step *s, int64_t index)
+{
+    const scree_state *state = s->c->state;
+    const double patience = scree_pour_patience(s->c->model, s->stage, index);
+    return (double)(state->step - s->births->source[index].since) * state->tick > patience;
+}
+
 /// The source waits from now on, or goes on waiting.
 static scree_status wait(step *s, int64_t index, const scree_vector place, const obstacle *by, scree_error *error)
 {
@@ -149,9 +161,7 @@ static scree_status wait(step *s, int64_t index, const scree_vector place, const
         own->since = state->step;
         own->waits++;
     }
-    const double patience = scree_pour_patience(s->c->model, s->stage, index);
-    const bool over = (double)(state->step - own->since) * state->tick > patience;
-    return over ? stop_blocked(s, index, place, by, error) : SCREE_OK;
+    return is_over(s, index) ? stop_blocked(s, index, place, by, error) : SCREE_OK;
 }
 
 // ---- the pile ----------------------------------------------------------------------------------------------------
@@ -176,11 +186,16 @@ static void end(step *s, scree_pour_end why)
     s->births->ended = s->c->state->step;
 }
 
+static bool wants_extent(const scree_pour_config *stage)
+{
+    return !isnan(stage->height) || !isnan(stage->width);
+}
+
 /// Whether the pile has become what the stage wants.
 static scree_status check_extent(step *s, scree_error *error)
 {
     const scree_pour_config *stage = s->stage;
-    if (isnan(stage->height) && isnan(stage->width)) return SCREE_OK;
+    if (!wants_extent(stage)) return SCREE_OK;
     scree_status status = measure_pile(s, error);
     if (status) return status;
     if (s->pile.top - s->pile.base >= stage->height)
@@ -254,48 +269,72 @@ static void go_on(step *s, int64_t index, uint64_t layer)
     own->in_layer = 0;
 }
 
-static scree_status pour_one(step *s, int64_t index, scree_error *error)
+/// What a source lets go next: one grain, or a layer of them.
+typedef struct trial {
+    bool layer;
+    int species;
+    double reach; ///< m, of the grain, or of the largest one
+    uint64_t first;
+    size_t count;
+    scree_source_place place;
+    scree_source_slots slots; ///< of a layer
+} trial;
+
+static trial make_trial(const step *s, int64_t index)
 {
     const scree_context *c = s->c;
     const scree_config_source *source = &c->model->sources[index];
     const scree_source_state *own = &s->births->source[index];
-    const uint64_t number = c->state->next_id;
-    const double reach = scree_birth_reach(c->model, species_of(c->model, source), number);
-    scree_source_place place;
-    scree_vector at;
-    scree_source_place_now(c->model, source, own, scree_state_time(c->state), reach, &place);
-    scree_source_draw(c->model, &place, number, own->attempts, at);
-    const obstacle by = find_obstacle(c->state, c->work, at, reach);
-    if (by.what != NOTHING) return wait(s, index, at, &by, error);
-    scree_status status = give_birth(s, index, at, error);
-    if (!status) go_on(s, index, scree_source_layer(c->model, source, &place));
-    return status;
+    const uint64_t left = left_for(s, index);
+    trial t = {.species = species_of(c->model, source), .first = c->state->next_id, .count = 1};
+    t.layer = source->batch == SCREE_SOURCE_LAYER;
+    t.reach = t.layer ? scree_birth_largest_reach(c->model) : scree_birth_reach(c->model, t.species, t.first);
+    scree_source_place_now(c->model, source, own, scree_state_time(c->state), t.reach, &t.place);
+    if (!t.layer) return t;
+    t.slots = scree_source_make_slots(&t.place, t.reach);
+    t.count = t.slots.count < left ? t.slots.count : (size_t)left;
+    return t;
 }
 
-/// All grains of a layer, when there is room for all.
-static scree_status pour_layer(step *s, int64_t index, scree_error *error)
+/// Where grain `k` of them would be.
+static void draw_place(const step *s, int64_t index, const trial *t, size_t k, scree_vector at)
+{
+    const scree_model *model = s->c->model;
+    if (t->layer)
+        scree_source_draw_slot(model, &t->slots, k, t->reach, t->first + k, at);
+    else
+        scree_source_draw(model, &t->place, t->first, s->births->source[index].attempts, at);
+}
+
+/// What is in the way of one of them, which would be at `at`. All processes find something, or none does.
+static obstacle look(const step *s, int64_t index, const trial *t, scree_vector at)
 {
     const scree_context *c = s->c;
-    const scree_config_source *source = &c->model->sources[index];
-    const int species = species_of(c->model, source);
-    const double largest = scree_birth_largest_reach(c->model);
-    const uint64_t left = left_for(s, index), first = c->state->next_id;
-    scree_source_place place;
+    obstacle by = {NOTHING, 0};
+    for (size_t k = 0; k < t->count && by.what == NOTHING; k++) {
+        draw_place(s, index, t, k, at);
+        by = find_obstacle(c->state, c->work, at, scree_birth_reach(c->model, t->species, t->first + k));
+    }
+    double blocked = by.what != NOTHING;
+    scree_comm_maximum(c->state, &blocked, 1);
+    if (blocked > 0 && by.what == NOTHING) by.what = ELSEWHERE;
+    return by;
+}
+
+/// All of them, when there is room for all.
+static scree_status pour_next(step *s, int64_t index, scree_error *error)
+{
+    const scree_model *model = s->c->model;
+    const trial t = make_trial(s, index);
     scree_vector at;
     scree_status status = SCREE_OK;
-    scree_source_place_now(c->model, source, &s->births->source[index], scree_state_time(c->state), largest, &place);
-    scree_source_slots slots = scree_source_make_slots(&place, largest);
-    if (slots.count > left) slots.count = (size_t)left;
-    for (size_t k = 0; k < slots.count; k++) {
-        scree_source_draw_slot(c->model, &slots, k, largest, first + k, at);
-        const obstacle by = find_obstacle(c->state, c->work, at, scree_birth_reach(c->model, species, first + k));
-        if (by.what != NOTHING) return wait(s, index, at, &by, error);
-    }
-    for (size_t k = 0; k < slots.count && !status; k++) {
-        scree_source_draw_slot(c->model, &slots, k, largest, first + k, at);
+    const obstacle by = look(s, index, &t, at);
+    if (by.what != NOTHING) return wait(s, index, at, &by, error);
+    for (size_t k = 0; k < t.count && !status; k++) {
+        draw_place(s, index, &t, k, at);
         status = give_birth(s, index, at, error);
     }
-    if (!status) go_on(s, index, 0);
+    if (!status) go_on(s, index, t.layer ? 0 : scree_source_layer(model, &model->sources[index], &t.place));
     return status;
 }
 
@@ -307,6 +346,12 @@ static void begin_source(const scree_state *state, scree_source_state *own)
     own->top = own->left = own->right = NAN;
 }
 
+/// Whether a source that is due looks where the top of the pile is: at the begin of a layer.
+static bool looks_at_pile(const scree_config_source *source, const scree_source_state *own)
+{
+    return own->in_layer == 0 && own->attempts == 0 && scree_source_follows(source);
+}
+
 static scree_status pour_source(step *s, int64_t index, scree_error *error)
 {
     const scree_context *c = s->c;
@@ -316,11 +361,11 @@ static scree_status pour_source(step *s, int64_t index, scree_error *error)
     begin_source(c->state, own);
     if (own->due < c->state->stage.first_step) own->due = c->state->stage.first_step;
     if (c->state->step < own->due || left_for(s, index) == 0) return SCREE_OK;
-    if (own->in_layer == 0 && own->attempts == 0 && scree_source_follows(source)) {
+    if (looks_at_pile(source, own)) {
         if ((status = measure_pile(s, error))) return status;
         scree_source_begin_layer(c->model, source, &s->pile, own);
     }
-    return source->batch == SCREE_SOURCE_LAYER ? pour_layer(s, index, error) : pour_one(s, index, error);
+    return pour_next(s, index, error);
 }
 
 /// What is due in this step.
@@ -362,11 +407,49 @@ static scree_status pour_due(step *s, scree_error *error)
 
 // ---- the pass ----------------------------------------------------------------------------------------------------
 
+static step begin_step(const scree_context *c)
+{
+    return (step){.c = c, .births = scree_births_of(c->state), .stage = scree_pour_config_of(c->model, c->state)};
+}
+
+static bool looks_for_lost(const scree_context *c)
+{
+    return c->state->evaluations % LOOK_STEPS == 0;
+}
+
+/// Whether a source needs all bodies: it begins, looks at the pile, has room for its birth, or ends the run.
+static bool source_wants_all(const step *s, int64_t index)
+{
+    const scree_context *c = s->c;
+    const scree_source_state *own = &s->births->source[index];
+    if (!scree_source_pours_in(c->model, index, c->state->stage.index) || left_for(s, index) == 0) return false;
+    if (!own->begun) return true;
+    if (c->state->step < own->due) return false;
+    if (looks_at_pile(&c->model->sources[index], own)) return true;
+    scree_vector at;
+    const trial t = make_trial(s, index);
+    return look(s, index, &t, at).what == NOTHING || (own->attempts > 0 && is_over(s, index));
+}
+
+scree_status scree_pour_wants_all(const scree_context *c, bool *wanted, scree_error *error)
+{
+    const step s = begin_step(c);
+    scree_status status = SCREE_OK;
+    *wanted = false;
+    if (looks_for_lost(c)) status = scree_pour_loses(c, wanted, error);
+    if (status || *wanted || s.births->end != SCREE_POUR_GOES_ON) return status;
+    const due found = find_due(&s);
+    *wanted = found.fresh && wants_extent(s.stage);
+    for (int64_t k = 0; k < c->model->source_count && found.now && !*wanted; k++) *wanted = source_wants_all(&s, k);
+    return SCREE_OK;
+}
+
 scree_status scree_pour(const scree_context *c, scree_error *error)
 {
-    step s = {.c = c, .births = scree_births_of(c->state), .stage = scree_pour_config_of(c->model, c->state)};
+    step s = begin_step(c);
     scree_status status = SCREE_OK;
-    if (c->state->evaluations % LOOK_STEPS == 0) status = scree_pour_look_for_lost(c, s.stage, error);
+    // Of a part scree_pour_wants_all has found that nothing is lost.
+    if (looks_for_lost(c) && !c->state->part) status = scree_pour_look_for_lost(c, s.stage, error);
     if (!status && s.births->end == SCREE_POUR_GOES_ON) status = pour_due(&s, error);
     scree_pile_destroy(&s.pile);
     return status;

@@ -40,6 +40,13 @@ double scree_pour_patience(const scree_model *model, const scree_pour_config *st
 /// been blocked for too long, a grain has fallen past everything.
 scree_status scree_pour(const scree_context *context, scree_error *error);
 
+/// Whether the pass needs the whole sample in this step (scree_pass.whole): for a birth, a look at the pile, grains
+/// that are taken out, or an error that tells of bodies.
+scree_status scree_pour_wants_all(const scree_context *context, bool *wanted, scree_error *error);
+
+/// Whether there are grains, in any process, that have fallen past everything that stands. Errors: memory.
+scree_status scree_pour_loses(const scree_context *context, bool *loses, scree_error *error) SCREE_MUST_USE;
+
 /// Looks for grains that have fallen past everything that stands. Errors as above.
 scree_status scree_pour_look_for_lost(const scree_context *context, const scree_pour_config *stage,
                                       scree_error *error) SCREE_MUST_USE;

@@ -43,5 +43,6 @@ const scree_module scree_module_region = {
     .choice_of = CHOICE_OF(IS("sources", .meaning = "a box with sides along the axes: rain")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .spreads = true,
     .source = &(const scree_source_kind){.wide = true, .wrong = wrong, .place = place},
 };

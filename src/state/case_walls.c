@@ -77,7 +77,7 @@ static scree_status follow(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, decide}, {SCREE_PHASE_FOLLOW, follow}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = decide}, {SCREE_PHASE_FOLLOW, .run = follow}};
 
 // ---- what each wall tells ----------------------------------------------------------------------------------------
 

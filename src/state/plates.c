@@ -72,7 +72,7 @@ static scree_status follow(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}};
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = follow}};
 
 const scree_module scree_module_plates = {
     .name = "plates",

@@ -41,6 +41,29 @@ near 'nothing is taken' "$(get counted kinetic)" "4 * 0.5 * $mass" 1e-12
 expect 0 '' "$scree" run --restart again --from 0 -q
 same "$(get again state_checksum)" "$(get taken state_checksum)" 'after a restart'
 
+# --- others are taken out while a load pushes two: it pushes in that step, too
+cat >pushed.yaml <<'END'
+name: pushed
+materials: [{name: rubber, young_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m3, friction: 0}]
+particles: {material: rubber, count: 3, distribution: equal, radius: 1 mm, thickness: 1 m}
+integrator: {step: 10 us}
+walls: [{shape: plane, name: floor, point: [0, -1 m], normal: [0, 1]}]
+selections: [{select: ids, name: pushed, ids: [1, 2]}]
+loads:
+  - {load: outlet, lower: [-1 m, -1 m], upper: [0 m, 1 m], every: 10}
+  - {load: prescribed, selection: pushed, force_x: 0.1 N}
+stages:
+  - stage: prepare
+    method: bodies
+    bodies: [{position: [10 mm, 0], velocity: [-1 m/s, 0]}, {position: [20 mm, 0], velocity: [0, 0]}, {position: [40 mm, 0], velocity: [0, 0]}]
+  - {stage: relax, duration: 15 ms}
+measure: {samples: 50, cells: no}
+output: {figures: no, paraview: no}
+END
+expect 0 '' "$scree" run pushed.yaml -o pushed -q
+same "$(get pushed outflow)" 1 'taken out beside two that are pushed'
+near 'energy' "$(get pushed energy_residual)" 0 1e-12
+
 # --- what is wrong
 expect 2 'loads.0.upper: no coordinate of .upper. may be as small' "$scree" check flight.yaml --set 'loads.0.upper=[-2 m, 1 m]'
 expect 2 'loads.0.upper: the region of the outlet lies within the wall .floor.' \

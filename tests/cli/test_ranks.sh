@@ -94,9 +94,94 @@ stages:
   - {stage: relax, name: shake, duration: 0.05 s}
 $rest
 EOF
+# A path in stress and strain, with grains that stick; layers that are driven and pushed, a piston among them.
+cat >path.yaml <<EOF
+scree: 1
+name: path
+dimension: 3
+seed: 5
+materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5, surface_energy: 0.02 J/m2, rolling_friction: 0.1}]
+$spheres
+contact: {law: hertz_jkr}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: xyz}
+stages:
+  - {stage: prepare, method: gas, solid_fraction: 30 %}
+  - {stage: confine, pressure: 5 kPa, unbalanced_limit: 0.3}
+  - {stage: load_path, strain_rate: {zz: -5 1/s}, keep: volume, reverse_strain: 1 %, cycles: 1}
+$rest
+EOF
+cat >block.yaml <<EOF
+scree: 1
+name: block
+seed: 6
+$materials
+$discs
+contact: {law: hertz_dmt}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: x}
+selections:
+  - {select: band, name: floor, axis: y, measured: low, from: 0 mm, to: 3 mm}
+  - {select: band, name: lid, axis: y, measured: high, from: 0 mm, to: 3 mm}
+  - {select: band, name: some, axis: y, measured: low, from: 4 mm, to: 6 mm}
+loads:
+  - {load: prescribed, selection: floor, from: shear, velocity_x: 0, velocity_y: 0, spin_z: 0}
+  - {load: prescribed, selection: lid, from: shear, velocity_x: {from: 0 m/s, to: 0.5 m/s, begin: 0 s, end: 5 ms, smooth: yes}, velocity_y: -5 mm/s, spin_z: 0, until_force: 0.2 N}
+  - {load: prescribed, selection: some, from: shear, force_x: 1 mN, per: selection}
+stages:
+  - {stage: prepare, method: gas, aspect_ratio: 0.5, solid_fraction: 60 %}
+  - {stage: confine, pressure: 1 kPa, unbalanced_limit: 0.3}
+  - {stage: relax, name: shear, duration: 20 ms}
+$rest
+EOF
+# Grains from a point, which has to wait for them to fall, and from a line that follows the top of the pile, onto a table:
+# what falls off is taken out, beside it by an outlet, else where nothing stands.
+cat >pour.yaml <<EOF
+scree: 1
+name: pour
+seed: 7
+gravity: [0, -9.81]
+materials: [{name: glass, young_modulus: 0.3 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 32}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+walls: [{shape: box, name: table, side: outside, lower: [-6 mm, -4 mm], upper: [6 mm, 0]}]
+loads: [{load: outlet, lower: [6 mm, -20 mm], upper: [40 mm, -2 mm], every: 20}]
+sources:
+  - {source: point, name: spout, place: [1 mm, 12 mm], interval: 2 ms, velocity: [0, -0.3], spread: [0.1, 0]}
+  - {source: line, name: row, start: [-4 mm, 10 mm], end: [-1 mm, 10 mm], interval: 3 ms, velocity: [0.1, -0.2], width: plateau, above: 6 mm, layer: 4}
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, past: take_out, unbalanced_limit: 0.5, rest_time: 8 ms}
+$rest
+EOF
+# Layers of spheres into a hopper, until it is as full as wanted; what has run out is taken out.
+cat >rain.yaml <<EOF
+scree: 1
+name: rain
+dimension: 3
+seed: 8
+gravity: [0, 0, -9.81]
+materials: [{name: glass, young_modulus: 0.2 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+particles: {shape: sphere, material: glass, radius_min: 0.8 mm, radius_max: 1.2 mm, count: 90}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+walls:
+  - {shape: cone, name: funnel, start: [0, 0, 0], end: [0, 0, 8 mm], radius_start: 3 mm, radius_end: 7 mm, ends: open}
+  - {shape: cylinder, name: silo, start: [0, 0, 8 mm], end: [0, 0, 40 mm], radius: 7 mm, ends: open}
+  - {shape: plane, name: floor, point: [0, 0, -10 mm], normal: [0, 0, 1]}
+loads: [{load: outlet, lower: [-1 m, -1 m, -1 m], upper: [1 m, 1 m, 1 mm], every: 20}]
+sources: [{source: region, name: cloud, lower: [-4 mm, -4 mm, 16 mm], upper: [4 mm, 4 mm, 16 mm], batch: layer, interval: 5 ms, velocity: [0, 0, -0.3]}]
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, name: fill, count: 45}
+  - {stage: relax, name: flow, duration: 10 ms}
+  - {stage: pour, name: more, height: 6 mm}
+$rest
+EOF
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid; do
+for name in shear layer drum lid path block pour rain; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -119,9 +204,27 @@ refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@
 refused "boundary 'pressure'" biaxial --quick -o no
 refused "stage 'collide'" restitution -o no
 refused "law 'polygon_overlap'" pile-relax --quick -o no
-refused "load 'prescribed'" layer-shear --quick -o no
-refused "source" pour-discs --quick -o no
+refused "acts in a stage: 'sleep'" pour.yaml --set stages.pour.sleep_window="1 ms" -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
+
+# --- what was poured, waited and was taken out; errors tell of the whole sample; other numbers of processes go on
+for result in spout_waits row_waits row_layers outlet_outflow; do
+    checks=$((checks + 1)); [ "$("$scree" get one-pour $result)" -gt 0 ] || complain "$result of pour is nothing"
+done
+checks=$((checks + 1)); [ $(($("$scree" get one-pour particles) + $("$scree" get one-pour outlet_outflow))) -lt 32 ] || complain 'nothing of pour was lost'
+for result in cloud_waits outlet_outflow; do
+    checks=$((checks + 1)); [ "$("$scree" get one-rain $result)" -gt 0 ] || complain "$result of rain is nothing"
+done
+grep -q 'the pile is as high as wanted' one-rain/log.txt || complain 'rain did not end with the height'
+"$scree" run pour.yaml -o error-one --set stages.pour.past=stop --quiet --threads 1 2>error-one.txt
+expect 3 'has fallen past everything that stands' on 3 pour.yaml -o error --set stages.pour.past=stop --threads 1
+grep -qF "$(grep -o 'step [0-9]*: particle.* m, has' error-one.txt)" <<<"$output" || complain "another grain is lost: $output"
+"$scree" run pour.yaml -o error-one -f --set stages.pour.patience="10 ms" --set sources.spout.place="[1 mm, 5 mm]" --quiet --threads 1 2>error-one.txt
+expect 3 "source 'spout' has been blocked" on 3 pour.yaml -o error -f --set stages.pour.patience="10 ms" --set sources.spout.place="[1 mm, 5 mm]" --threads 1
+grep -qF "$(grep -o 'step [0-9]*: source.*' error-one.txt)" <<<"$output" || complain "another source is blocked: $output"
+expect 0 '|warning' on 3 pour.yaml -o again --set output.checkpoint_steps=1500 --threads 1
+expect 0 '|warning' on 2 --restart again --from 3000
+same "$(checksum again)" "$(checksum one-pour)" 'pour goes on with two processes in place of three'
 
 # --- a process dies; the checkpoint is whole, and any number of processes goes on from it
 mpirun --oversubscribe -n 4 "$scree" run drum.yaml -o killed --set output.checkpoint_steps=200 --quiet --threads 1 >killed.txt 2>&1 </dev/null &
