@@ -7,7 +7,6 @@
 #include "base/checksum.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
-#include "run/step.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 

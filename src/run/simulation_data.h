@@ -55,4 +55,10 @@ struct scree_simulation {
     scree_error stopped; ///< why no further step can be taken; its status is 0 while there is no reason
 };
 
+/// What passes of this simulation are given.
+static inline scree_context scree_step_context(scree_simulation *s)
+{
+    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s, s->stage_model.gravity, &s->table};
+}
+
 #endif

@@ -121,11 +121,6 @@ static const scree_pass core[] = {
     {SCREE_PHASE_GUARD, .run = guard},
 };
 
-scree_context scree_step_context(scree_simulation *s)
-{
-    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s, s->stage_model.gravity, &s->table};
-}
-
 /// Appends those of `passes` that belong to a phase.
 static void append(scree_simulation *s, scree_phase phase, const scree_pass *passes, size_t count)
 {

@@ -13,7 +13,4 @@ scree_status scree_step(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 /// The passes of one phase alone, to see what they cost.
 scree_status scree_step_phase(scree_simulation *s, scree_phase phase, scree_error *error) SCREE_MUST_USE;
 
-/// What passes of this simulation are given.
-scree_context scree_step_context(scree_simulation *s);
-
 #endif

@@ -134,24 +134,25 @@ stages:
   - {stage: relax, name: shear, duration: 20 ms}
 $rest
 EOF
-# Grains from a point, which has to wait for them to fall, and from a line that follows the top of the pile, onto a table:
-# what falls off is taken out, beside it by an outlet, else where nothing stands.
+# Grains from a point, which has to wait for them to fall, and from a line that follows the top of the pile, onto a table
+# above two that are driven: what falls off is taken out, beside it by an outlet, else below all that stands.
 cat >pour.yaml <<EOF
 scree: 1
 name: pour
 seed: 7
 gravity: [0, -9.81]
-materials: [{name: glass, young_modulus: 0.3 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+materials: [{name: glass, young_modulus: 0.5 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
 particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 32}
 contact: {law: hertz_mindlin, tangential_history: rescaled}
 integrator: {scheme: velocity_verlet, step_fraction: 0.2}
 walls: [{shape: box, name: table, side: outside, lower: [-6 mm, -4 mm], upper: [6 mm, 0]}]
-loads: [{load: outlet, lower: [6 mm, -20 mm], upper: [40 mm, -2 mm], every: 20}]
+selections: [{select: ids, name: bar, ids: [0, 1]}]
+loads: [{load: outlet, lower: [6 mm, -20 mm], upper: [40 mm, -2 mm], every: 20}, {load: prescribed, selection: bar, velocity_x: 50 mm/s, velocity_y: 0, spin_z: 0}]
 sources:
   - {source: point, name: spout, place: [1 mm, 12 mm], interval: 2 ms, velocity: [0, -0.3], spread: [0.1, 0]}
   - {source: line, name: row, start: [-4 mm, 10 mm], end: [-1 mm, 10 mm], interval: 3 ms, velocity: [0.1, -0.2], width: plateau, above: 6 mm, layer: 4}
 stages:
-  - {stage: prepare, method: empty}
+  - {stage: prepare, method: bodies, bodies: [{position: [-12 mm, -8 mm], radius: 1 mm}, {position: [-14 mm, -6 mm], radius: 1 mm}]}
   - {stage: pour, past: take_out, unbalanced_limit: 0.5, rest_time: 8 ms}
 $rest
 EOF
@@ -222,8 +223,9 @@ grep -qF "$(grep -o 'step [0-9]*: particle.* m, has' error-one.txt)" <<<"$output
 "$scree" run pour.yaml -o error-one -f --set stages.pour.patience="10 ms" --set sources.spout.place="[1 mm, 5 mm]" --quiet --threads 1 2>error-one.txt
 expect 3 "source 'spout' has been blocked" on 3 pour.yaml -o error -f --set stages.pour.patience="10 ms" --set sources.spout.place="[1 mm, 5 mm]" --threads 1
 grep -qF "$(grep -o 'step [0-9]*: source.*' error-one.txt)" <<<"$output" || complain "another source is blocked: $output"
-expect 0 '|warning' on 3 pour.yaml -o again --set output.checkpoint_steps=1500 --threads 1
-expect 0 '|warning' on 2 --restart again --from 3000
+expect 0 '|warning' on 3 pour.yaml -o again --set output.snapshots=10 --threads 1
+expect 0 '|warning' on 2 --restart again --from 5
+grep -q 'goes on from step [1-9]' again/log.txt || complain 'pour does not go on from its middle'
 same "$(checksum again)" "$(checksum one-pour)" 'pour goes on with two processes in place of three'
 
 # --- a process dies; the checkpoint is whole, and any number of processes goes on from it
