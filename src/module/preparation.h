@@ -15,6 +15,7 @@ typedef struct scree_preparation {
     bool sizes_box;        ///< the box is made for what is placed, whatever the aspect ratio
     bool dense;            ///< packs particles between walls until they are stable
     bool loose;            ///< there are no contacts at the begin
+    bool given;            ///< what stands where is given, whatever the number of particles
     bool binary;           ///< the particles can only collide
     bool approaching;      ///< the particles may be about to collide
     int lattice;           ///< scree_lattice + 1 (theory/lattice.h) that it makes; 0: none

@@ -144,6 +144,7 @@ static double impact_speed(const scree_model *model, const scree_config_stage *s
 
 static const scree_preparation preparation = {
     .periodic = true,
+    .given = true,
     .sizes_box = true,
     .approaching = true,
     .check = check,

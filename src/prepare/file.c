@@ -487,6 +487,7 @@ static const char *remark(const scree_config_stage *stage)
 
 static const scree_preparation preparation = {
     .periodic = true,
+    .given = true,
     .approaching = true,
     .sizes_box = true,
     .supply = supply,

@@ -52,7 +52,7 @@ static double processor_time(void)
 typedef struct probe_case {
     scree_case c;
     scree_simulation s;
-    bool dropped; ///< in the place of a method without contacts
+    bool dropped; ///< in the place of a method without contacts, or of more bodies than it takes
     unsigned periodic;
 } probe_case;
 
@@ -83,8 +83,9 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
     scree_status status = scree_config_copy_stages(&c->config, &config->stages, error);
     if (status) return status;
     scree_prepare_config *prepare = config->stages[0].own;
-    probe->dropped = scree_modules[prepare->method]->preparation->loose;
+    const scree_preparation *method = scree_modules[prepare->method]->preparation;
     double most = config->dimension == 3 ? MOST_SPHERES : MOST_DISCS;
+    probe->dropped = method->loose || (method->given && (double)config->particles.count > most);
     if ((double)config->particles.count > most) shrink_box(config, prepare, most);
     for (int64_t k = 0; k < config->stage_count; k++) {
         void (*fit)(void *own, int64_t count) = scree_modules[config->stages[k].kind]->stage->shrink;
