@@ -1,6 +1,5 @@
 /// scree check CASE: the resolved case, and what it amounts to as comments below it. scree check DIR: what is whole in
 /// the folder of a run, and from where it can go on.
-#include "case/case.h"
 #include "cli/case_argument.h"
 #include "cli/specimen_argument.h"
 #include "cli/terminal.h"
@@ -125,7 +124,6 @@ static scree_status try_begin(const scree_case *c, const scree_case_summary *sum
     if (summary->particles > MOST) return SCREE_OK;
     scree_status status = scree_simulation_create(c, 1, &s, error);
     if (!status) status = scree_simulation_begin_stage(s, NULL, error);
-    if (status && !error->line) scree_case_locate(c, error);
     scree_simulation_free(s);
     return status == SCREE_ERROR_INPUT ? status : SCREE_OK;
 }

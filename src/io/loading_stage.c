@@ -25,6 +25,16 @@ static double range_of(const double *strain, scree_loading_rows rows)
     return high > low ? high - low : 0;
 }
 
+/// A sample between plates may lean to a side while it is pressed; a cell that repeats itself shears where it is told
+/// to.
+static bool is_sheared(const scree_series *series, const double *axial, const double *shear, scree_loading_rows rows)
+{
+    const double *work = scree_series_get(series, "work_plates");
+    for (size_t k = rows.first; work && k < rows.last; k++)
+        if (isfinite(work[k]) && work[k] != 0) return false;
+    return range_of(shear, rows) > range_of(axial, rows);
+}
+
 scree_loading_path scree_loading_path_find(const scree_series *series)
 {
     scree_loading_path path = {scree_loading_rows_find(series), scree_series_get(series, "axial_strain"), NULL, false};
@@ -34,7 +44,7 @@ scree_loading_path scree_loading_path_find(const scree_series *series)
     while (flat && all.first < path.rows.first && !isfinite(flat[all.first])) all.first++;
     if (!flat || path.rows.last == 0) return path;
     const double *axial = solid && isfinite(solid[all.last - 1]) ? solid : flat;
-    path.sheared = range_of(shear, all) > range_of(axial, all);
+    path.sheared = is_sheared(series, axial, shear, all);
     if (all.first == path.rows.first) return path;
     path.rows = all;
     path.strain = path.sheared ? shear : axial;

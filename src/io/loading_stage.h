@@ -20,10 +20,11 @@ typedef struct scree_loading_path {
     scree_loading_rows rows; ///< from the first row of the first one to the last row of the last one
     const double *strain;    ///< column: that runs on through them; of one stage `axial_strain`; NAN between stages
     const char *label;       ///< of its axis, in percent; NULL: there is one stage alone
-    bool sheared;            ///< `strain_shear` goes further than the axial strain
+    bool sheared;            ///< it is a cell whose `strain_shear` goes further than the axial strain
 } scree_loading_path;
 
-/// Of several stages the strain is `strain_zz` (in the plane `strain_yy`), or `strain_shear` where that goes further.
+/// Of several stages the strain is `strain_zz` (in the plane `strain_yy`), or of a cell that repeats itself
+/// `strain_shear` where that goes further.
 scree_loading_path scree_loading_path_find(const scree_series *series);
 
 /// Width [1] of the running mean over the axial strain that a peak is looked for in.

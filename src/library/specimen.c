@@ -81,6 +81,7 @@ scree_status scree_simulation_begin_stage(scree_simulation *s, const char *name,
         if (s->stage_ended && s->state.stage.index + 1 >= s->model.stage_count) break;
         status = scree_simulation_step(s, error);
     }
+    if (status == SCREE_ERROR_INPUT && error && error->field[0] && error->line == 0) scree_case_locate(s->c, error);
     return status;
 }
 

@@ -325,20 +325,20 @@ static void unknown_figures_are_refused(void **state)
     }
 }
 
-/// Strain in percent, dilation positive, confinement left out: the first line of the data is the first row of loading,
+/// Strain in percent, compression positive, confinement left out: the first line of the data is the first row of loading,
 /// the last but one line of 200 has 0.15 * 198 / 199 of strain.
 static void charts_hold_the_loading_stage_only(void **state)
 {
     (void)state;
     char *text = read_whole("run/figures/volumetric-strain.csv"), *line = strchr(text, '\n') + 1;
-    double strain, dilation, last = -1;
+    double strain, volume, last = -1;
     int rows = 0;
-    for (; sscanf(line, "%lf,%lf", &strain, &dilation) == 2; line = strchr(line, '\n') + 1, rows++) {
+    for (; sscanf(line, "%lf,%lf", &strain, &volume) == 2; line = strchr(line, '\n') + 1, rows++) {
         assert_true(strain > last);
         last = strain;
     }
     assert_int_equal(rows, 200);
-    assert_true(fabs(strain - 15) < 1e-7 && dilation > 5);
+    assert_true(fabs(strain - 15) < 1e-7 && volume < -5);
     free(text);
 }
 
