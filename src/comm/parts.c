@@ -299,7 +299,7 @@ static scree_status move_contacts(scree_state *state, scree_work *work, const in
     scree_body_array list[4];
     size_t arrays = 0;
     int32_t *ends = NULL;
-    journey j = {NULL};
+    journey j = {0};
     scree_status status = list_contacts(state, work, state->contact_count, list, &arrays, error);
     if (!status) status = scree_allocate(&ends, 2 * state->contact_count + 1, sizeof *ends, error);
     if (!status) status = journey_open(&j, 2 * state->contact_count, error);
@@ -322,7 +322,7 @@ static scree_status move_rows(scree_state *state, scree_work *work, const int32_
 {
     scree_body_array list[SCREE_BODY_ARRAYS + 1];
     int32_t *ends = NULL;
-    journey j = {NULL};
+    journey j = {0};
     scree_status status = reserve_rows(state, work, state->count, error);
     const size_t arrays = list_arrays(state, work, list);
     if (!status) status = scree_allocate(&ends, 2 * state->count + 1, sizeof *ends, error);

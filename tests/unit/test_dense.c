@@ -189,7 +189,7 @@ static void discs_fill_a_cell(void **unused)
     expect_report(&s, 0.01, &f);
     expect_sizes(&s, 0.93, 0.03);
     assert_true(record_of(&s)[0] == 3 * 150);
-    assert_true(f.bonds > 2.85 * 150 && f.touches == 0);
+    assert_true((double)f.bonds > 2.85 * 150 && f.touches == 0);
     destroy(&s);
 }
 
