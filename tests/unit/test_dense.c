@@ -175,7 +175,7 @@ static void discs_fill_a_square(void **unused)
     expect_sizes(&s, 0.93, 0.03);
     const double edges = record_of(&s)[0];
     assert_true((double)f.bonds > 0.95 * edges && edges > 3 * 150 - 3 - 5 * sqrt(150));
-    assert_true(f.touches > 3 * sqrt(150));
+    assert_true((double)f.touches > 3 * sqrt(150));
     destroy(&s);
 }
 
