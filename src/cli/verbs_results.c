@@ -83,8 +83,7 @@ const scree_verb scree_results_verbs[] = {
                    {.name = "at",
                     .value = "WHEN",
                     .meaning = "start, end, #N (snapshot N), a STAGE (its last one), an axial strain, a time with its "
-                               "unit; mean:STAGE or "
-                               "mean:N, the mean over its snapshots, or over the last N",
+                               "unit; mean:STAGE or mean:N, the mean over its snapshots, or over the last N",
                     .preset = "end"},
                    {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
                    {.name = "threads",

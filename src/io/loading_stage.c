@@ -25,26 +25,27 @@ static double range_of(const double *strain, scree_loading_rows rows)
     return high > low ? high - low : 0;
 }
 
-/// A sample between plates may lean to a side while it is pressed; a cell that repeats itself shears where it is told
-/// to.
-static bool is_sheared(const scree_series *series, const double *axial, const double *shear, scree_loading_rows rows)
+static bool have_plates_worked(const scree_series *series, scree_loading_rows rows)
 {
     const double *work = scree_series_get(series, "work_plates");
     for (size_t k = rows.first; work && k < rows.last; k++)
-        if (isfinite(work[k]) && work[k] != 0) return false;
-    return range_of(shear, rows) > range_of(axial, rows);
+        if (work[k] != 0 && !isnan(work[k])) return true;
+    return false;
 }
 
 scree_loading_path scree_loading_path_find(const scree_series *series)
 {
-    scree_loading_path path = {scree_loading_rows_find(series), scree_series_get(series, "axial_strain"), NULL, false};
+    scree_loading_path path = {.rows = scree_loading_rows_find(series),
+                               .strain = scree_series_get(series, "axial_strain")};
     const double *flat = scree_series_get(series, "strain_yy"), *solid = scree_series_get(series, "strain_zz"),
                  *shear = scree_series_get(series, "strain_shear");
     scree_loading_rows all = {0, path.rows.last};
     while (flat && all.first < path.rows.first && !isfinite(flat[all.first])) all.first++;
+    path.plates = have_plates_worked(series, flat ? all : path.rows);
     if (!flat || path.rows.last == 0) return path;
     const double *axial = solid && isfinite(solid[all.last - 1]) ? solid : flat;
-    path.sheared = is_sheared(series, axial, shear, all);
+    // Between plates a sample may lean to a side while it is pressed; a cell shears where it is told to.
+    path.sheared = !path.plates && range_of(shear, all) > range_of(axial, all);
     if (all.first == path.rows.first) return path;
     path.rows = all;
     path.strain = path.sheared ? shear : axial;

@@ -20,6 +20,7 @@ typedef struct scree_loading_path {
     scree_loading_rows rows; ///< from the first row of the first one to the last row of the last one
     const double *strain;    ///< column: that runs on through them; of one stage `axial_strain`; NAN between stages
     const char *label;       ///< of its axis, in percent; NULL: there is one stage alone
+    bool plates;             ///< plates did work in these rows
     bool sheared;            ///< it is a cell whose `strain_shear` goes further than the axial strain
 } scree_loading_path;
 

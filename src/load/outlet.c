@@ -108,6 +108,7 @@ static scree_status decide(const scree_context *c, scree_error *error)
 {
     const scree_outlet *outlet;
     scree_status status = SCREE_OK;
+    if (c->state->part) return SCREE_OK; // `takes_out` has found that there is nothing
     for (size_t k = 0; !status && (outlet = outlet_of(c->model, k)); k++)
         if (outlet->removes && c->state->step % (uint64_t)outlet->every == 0)
             status = take_out(c, outlet, &own_state(c->state)->taken[k], error);

@@ -42,14 +42,14 @@ static bool sticks(const scree_model *model)
 static scree_status stop_overlap(const scree_simulation *s, scree_error *error)
 {
     const scree_row *row = &s->state.row[s->state.row_of_id[s->work.flagged_id]];
+    const bool cohesive = sticks(&s->model);
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: particle %llu at (%.4g, %.4g) m is indented by more than %.3g of its radius "
                            "(guard.overlap); the load is too high for the stiffness%s or the motion too fast: "
                            "try a stiffer material, a lower pressure%s or a slower rate",
                            (unsigned long long)s->state.step, (unsigned long long)s->work.flagged_id, row->x, row->y,
-                           s->model.overlap_limit,
-                           sticks(&s->model) ? ", the cohesion too strong for it or the step" : "",
-                           sticks(&s->model) ? ", less surface energy, a smaller step" : "");
+                           s->model.overlap_limit, cohesive ? ", the cohesion too strong for it or the step" : "",
+                           cohesive ? ", less surface energy, a smaller step" : "");
 }
 
 void scree_guard_join(const scree_state *state, scree_work *work)

@@ -148,18 +148,11 @@ static bool is_nothing(const double *value, size_t count)
     return true;
 }
 
-/// Plates did work in the loading stage.
-static bool has_plates(const scree_plot_run *run)
-{
-    const double *work = scree_series_get(&run->series, "work_plates");
-    return work && !is_nothing(work + run->path.rows.first, rows_of(run));
-}
-
 /// What plates hold back by friction is in the lateral stress of the contacts, and not in that of the sides.
 static const char *label_of(const scree_plot_run *run, const curve *c)
 {
-    return strcmp(c->column, "stress_ratio_contacts") == 0 && has_plates(run) ? "contacts, with friction at plates"
-                                                                              : c->label;
+    return strcmp(c->column, "stress_ratio_contacts") == 0 && run->path.plates ? "contacts, with friction at plates"
+                                                                               : c->label;
 }
 
 /// Gathers the curves behind `value`, the strain in percent, one behind the other.

@@ -8,13 +8,18 @@ near() { # name, value, wanted, tolerance
 }
 get() { "$scree" get "$@"; }
 
-# --- four discs fly at 1 m/s, 10 mm one behind the other; after 25 ms two have passed x = 0
-cat >flight.yaml <<'END'
-name: flight
-materials: [{name: rubber, young_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m3, friction: 0}]
-particles: {material: rubber, count: 4, distribution: equal, radius: 1 mm, thickness: 1 m}
+# Discs that touch nothing, far above a floor.
+discs='materials: [{name: rubber, young_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m3, friction: 0}]
 integrator: {step: 10 us}
-walls: [{shape: plane, name: floor, point: [0, -1 m], normal: [0, 1]}]
+walls: [{shape: plane, name: floor, point: [0, -1 m], normal: [0, 1]}]'
+rest='measure: {samples: 50, cells: no}
+output: {figures: no, paraview: no}'
+
+# --- four discs fly at 1 m/s, 10 mm one behind the other; after 25 ms two have passed x = 0
+cat >flight.yaml <<END
+name: flight
+$discs
+particles: {material: rubber, count: 4, distribution: equal, radius: 1 mm, thickness: 1 m}
 loads: [{load: outlet, lower: [-1 m, -1 m], upper: [0 m, 1 m], every: 10}]
 stages:
   - stage: prepare
@@ -22,8 +27,7 @@ stages:
     bodies: [{position: [10 mm, 0], velocity: [-1 m/s, 0]}, {position: [20 mm, 0], velocity: [-1 m/s, 0]},
       {position: [30 mm, 0], velocity: [-1 m/s, 0]}, {position: [40 mm, 0], velocity: [-1 m/s, 0]}]
   - {stage: relax, duration: 25 ms}
-measure: {samples: 50, cells: no}
-output: {figures: no, paraview: no}
+$rest
 END
 expect 0 '' "$scree" run flight.yaml -o taken -q
 mass=$(awk 'BEGIN { printf "%.17g", 1000 * 3.14159265358979324 * 1e-6 }')
@@ -42,12 +46,10 @@ expect 0 '' "$scree" run --restart again --from 0 -q
 same "$(get again state_checksum)" "$(get taken state_checksum)" 'after a restart'
 
 # --- others are taken out while a load pushes two: it pushes in that step, too
-cat >pushed.yaml <<'END'
+cat >pushed.yaml <<END
 name: pushed
-materials: [{name: rubber, young_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m3, friction: 0}]
+$discs
 particles: {material: rubber, count: 3, distribution: equal, radius: 1 mm, thickness: 1 m}
-integrator: {step: 10 us}
-walls: [{shape: plane, name: floor, point: [0, -1 m], normal: [0, 1]}]
 selections: [{select: ids, name: pushed, ids: [1, 2]}]
 loads:
   - {load: outlet, lower: [-1 m, -1 m], upper: [0 m, 1 m], every: 10}
@@ -57,8 +59,7 @@ stages:
     method: bodies
     bodies: [{position: [10 mm, 0], velocity: [-1 m/s, 0]}, {position: [20 mm, 0], velocity: [0, 0]}, {position: [40 mm, 0], velocity: [0, 0]}]
   - {stage: relax, duration: 15 ms}
-measure: {samples: 50, cells: no}
-output: {figures: no, paraview: no}
+$rest
 END
 expect 0 '' "$scree" run pushed.yaml -o pushed -q
 same "$(get pushed outflow)" 1 'taken out beside two that are pushed'
