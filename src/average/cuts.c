@@ -26,9 +26,11 @@ static double plate_force(const scree_average_sample *sample)
     return force;
 }
 
+/// Along x; where the sample repeats itself there, the middle of its cell.
 static double centre_of_mass(const scree_average_sample *sample, const scree_average_surface *surface)
 {
     double mass = 0, moment = 0;
+    if (scree_average_repeats(sample, 0)) return 0.5 * (surface->left + surface->right);
     for (size_t p = 0; p < sample->bodies; p++) {
         const scree_average_grain *grain = &sample->grain[p];
         const double x = grain->position[0];

@@ -156,6 +156,8 @@ static void find_totals(scree_average_sample *sample)
     sample->mean_radius = radii / (double)sample->counted;
     sample->mean_volume = sample->solid / (double)sample->counted;
     sample->unbalanced_ratio = resultants / touching / sample->mean_force;
+    for (int k = 0; k < sample->dimension; k++)
+        if (scree_average_repeats(sample, k)) sample->low[k] = 0, sample->high[k] = sample->lattice[4 * k];
     if (sample->dimension == 2) sample->low[2] = sample->high[2] = 0;
 }
 

@@ -82,10 +82,15 @@ typedef struct scree_average_sample {
     double mean_volume;       ///< m2, m3
     double solid;             ///< m2, m3, of all of them
     double mass;              ///< kg
-    double low[3], high[3];   ///< m, box that holds them
+    double low[3], high[3];   ///< m, box that holds them; along directions in which it repeats itself the cell
     double mean_force;        ///< N, mean magnitude of a contact force
     double unbalanced_ratio;  ///< mean resultant on a grain that touches something over it
 } scree_average_sample;
+
+static inline bool scree_average_repeats(const scree_average_sample *sample, int direction)
+{
+    return sample->directions >> direction & 1;
+}
 
 /// Grains and contacts of a state. model: that of the stage, with the gravity that acts. Errors: memory.
 scree_status scree_average_sample_of_state(const scree_model *model, const scree_state *state,

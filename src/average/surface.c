@@ -13,17 +13,30 @@ void scree_average_surface_destroy(scree_average_surface *surface)
     scree_release(&surface->top);
 }
 
-static size_t column_at(const scree_average_surface *s, int axis, double place)
+/// Number of the column at a place; of those that go round also beyond the last and below 0.
+static int64_t column_at(const scree_average_surface *s, int axis, double place)
 {
-    const double at = floor((place - s->origin[axis]) / s->width);
-    const size_t last = s->columns[axis] - 1;
-    return at <= 0 ? 0 : at >= (double)last ? last : (size_t)at;
+    const double at = floor((place - s->origin[axis]) / s->width[axis]), last = (double)s->columns[axis] - 1;
+    return (int64_t)(s->round[axis] ? at : fmax(0, fmin(at, last)));
+}
+
+/// Where the values of columns (i, j) are; their numbers may lie outside where they go round.
+static size_t place_of(const scree_average_surface *s, int64_t i, int64_t j)
+{
+    const int64_t m = (int64_t)s->columns[0], n = (int64_t)s->columns[1];
+    return (size_t)(((i % m + m) % m) * n + (j % n + n) % n);
+}
+
+/// Lower side of a column [m].
+static double begin_of(const scree_average_surface *s, int axis, int64_t k)
+{
+    return s->origin[axis] + (double)k * s->width[axis];
 }
 
 /// Distance of a place from the middle of column k along an axis.
-static double away(const scree_average_surface *s, int axis, size_t k, double place)
+static double away(const scree_average_surface *s, int axis, int64_t k, double place)
 {
-    return s->origin[axis] + ((double)k + 0.5) * s->width - place;
+    return begin_of(s, axis, k) + 0.5 * s->width[axis] - place;
 }
 
 /// The same with what the rounding of a polygon adds: its outer edges, and discs at its corners.
@@ -73,17 +86,17 @@ static bool find_chord(const scree_average_sample *sample, const scree_average_g
 static void cover(const scree_average_sample *sample, scree_average_surface *s, const scree_average_grain *grain)
 {
     const double r = grain->radius, *x = grain->position, height = x[s->dimension - 1];
-    size_t from[2] = {0, 0}, to[2] = {0, 0};
+    int64_t from[2] = {0, 0}, to[2] = {0, 0};
     for (int k = 0; k < s->dimension - 1; k++) {
         from[k] = column_at(s, k, x[k] - r);
         to[k] = column_at(s, k, x[k] + r);
     }
-    for (size_t i = from[0]; i <= to[0]; i++)
-        for (size_t j = from[1]; j <= to[1]; j++) {
+    for (int64_t i = from[0]; i <= to[0]; i++)
+        for (int64_t j = from[1]; j <= to[1]; j++) {
             double chord[2];
             const double dy = s->dimension == 3 ? away(s, 1, j, x[1]) : 0;
             if (!find_chord(sample, grain, away(s, 0, i, x[0]), dy, chord)) continue;
-            double *top = &s->top[i * s->columns[1] + j], *bottom = &s->bottom[i * s->columns[1] + j];
+            double *top = &s->top[place_of(s, i, j)], *bottom = &s->bottom[place_of(s, i, j)];
             if (!(*top >= height + chord[1])) *top = height + chord[1];
             if (!(*bottom <= height + chord[0])) *bottom = height + chord[0];
         }
@@ -103,26 +116,31 @@ static double find_base(const scree_average_sample *sample)
     return isfinite(base) ? base : sample->low[up];
 }
 
-/// The first column within a mean diameter.
-static size_t first_near(size_t column)
+/// Numbers of the columns within a mean diameter of column k.
+static void find_near(const scree_average_surface *s, int axis, int64_t k, int64_t near[2])
 {
-    return column < OF_DIAMETER ? 0 : column - OF_DIAMETER;
+    const int64_t last = (int64_t)s->columns[axis] - 1;
+    near[0] = s->round[axis] || k > OF_DIAMETER ? k - OF_DIAMETER : 0;
+    near[1] = s->round[axis] || k + OF_DIAMETER < last ? k + OF_DIAMETER : last;
 }
 
 /// The lower surface of what has no voids below it.
 static scree_status smooth_bottom(const scree_average_sample *sample, scree_average_surface *s, scree_error *error)
 {
-    const size_t count = s->columns[0] * s->columns[1], n = s->columns[1];
+    const size_t count = s->columns[0] * s->columns[1];
     double *least;
     scree_status status = scree_allocate(&least, count, sizeof *least, error);
-    for (size_t i = 0; i < s->columns[0] && !status; i++)
-        for (size_t j = 0; j < n; j++) {
+    for (int64_t i = 0; i < (int64_t)s->columns[0] && !status; i++)
+        for (int64_t j = 0; j < (int64_t)s->columns[1]; j++) {
+            const size_t here = place_of(s, i, j);
+            int64_t near[2][2];
             double low = NAN;
-            for (size_t a = first_near(i); a <= i + OF_DIAMETER && a < s->columns[0]; a++)
-                for (size_t b = first_near(j); b <= j + OF_DIAMETER && b < n; b++)
-                    low = fmin(low, s->bottom[a * n + b]);
-            const bool near = low < s->base + 2 * sample->mean_radius;
-            least[i * n + j] = isnan(s->bottom[i * n + j]) ? NAN : near ? s->base : low;
+            find_near(s, 0, i, near[0]);
+            find_near(s, 1, j, near[1]);
+            for (int64_t a = near[0][0]; a <= near[0][1]; a++)
+                for (int64_t b = near[1][0]; b <= near[1][1]; b++) low = fmin(low, s->bottom[place_of(s, a, b)]);
+            const bool at_base = low < s->base + 2 * sample->mean_radius;
+            least[here] = isnan(s->bottom[here]) ? NAN : at_base ? s->base : low;
         }
     for (size_t k = 0; k < count && !status; k++) s->bottom[k] = least[k];
     scree_release(&least);
@@ -130,19 +148,20 @@ static scree_status smooth_bottom(const scree_average_sample *sample, scree_aver
 }
 
 /// Whether some column at this x has a grain.
-static bool is_covered(const scree_average_surface *s, size_t i)
+static bool is_covered(const scree_average_surface *s, int64_t i)
 {
-    for (size_t j = 0; j < s->columns[1]; j++)
-        if (!isnan(s->top[i * s->columns[1] + j])) return true;
+    for (int64_t j = 0; j < (int64_t)s->columns[1]; j++)
+        if (!isnan(s->top[place_of(s, i, j)])) return true;
     return false;
 }
 
 /// The last covered column from the apex on in the direction of `step`, before a gap of a mean diameter.
-static size_t foot(const scree_average_surface *s, int step)
+static int64_t foot(const scree_average_surface *s, int step)
 {
-    size_t last = column_at(s, 0, s->apex);
+    int64_t last = column_at(s, 0, s->apex);
     int gap = 0;
-    for (size_t k = last; k < s->columns[0] && gap < OF_DIAMETER; k += (size_t)step) { // below 0 it is large
+    if (s->round[0]) return step < 0 ? 0 : (int64_t)s->columns[0] - 1;
+    for (int64_t k = last; k >= 0 && k < (int64_t)s->columns[0] && gap < OF_DIAMETER; k += step) {
         gap = is_covered(s, k) ? 0 : gap + 1;
         if (gap == 0) last = k;
     }
@@ -161,25 +180,49 @@ static void find_ends(const scree_average_sample *sample, scree_average_surface 
         s->highest = top;
         s->apex = grain->position[0];
     }
-    s->left = s->origin[0] + (double)foot(s, -1) * s->width;
-    s->right = s->origin[0] + (double)(foot(s, 1) + 1) * s->width;
-    for (size_t k = 0; k < s->columns[0] * s->columns[1]; k++)
-        if (!isnan(s->top[k]))
-            s->volume += fmax(0, s->top[k] - s->bottom[k]) * (s->dimension == 3 ? s->width * s->width : s->width);
+    s->left = begin_of(s, 0, foot(s, -1));
+    s->right = begin_of(s, 0, foot(s, 1) + 1);
+}
+
+/// Of a sample that repeats itself upwards.
+static void open_columns(const scree_average_sample *sample, scree_average_surface *s)
+{
+    const int up = s->dimension - 1;
+    if (!scree_average_repeats(sample, up)) return;
+    s->base = sample->low[up];
+    s->highest = sample->high[up];
+    for (size_t k = 0; k < s->columns[0] * s->columns[1]; k++) s->bottom[k] = -INFINITY, s->top[k] = INFINITY;
+}
+
+static void find_volume(scree_average_surface *s)
+{
+    for (size_t k = 0; k < s->columns[0] * s->columns[1]; k++) {
+        if (isnan(s->top[k])) continue;
+        const double height = isinf(s->top[k]) ? s->highest - s->base : s->top[k] - s->bottom[k];
+        s->volume += fmax(0, height) * s->width[0] * s->width[1];
+    }
+}
+
+/// Columns over the box that holds the sample; along a direction in which it repeats itself they fill it.
+static void lay_columns(const scree_average_sample *sample, scree_average_surface *s)
+{
+    for (int k = 0; k < sample->dimension - 1; k++) {
+        const double size = sample->high[k] - sample->low[k], width = 2 * sample->mean_radius / OF_DIAMETER;
+        s->round[k] = scree_average_repeats(sample, k);
+        s->origin[k] = sample->low[k];
+        s->columns[k] = (size_t)fmax(1, ceil(size / width));
+        s->width[k] = s->round[k] ? size / (double)s->columns[k] : width;
+    }
 }
 
 scree_status scree_average_surface_find(const scree_average_sample *sample, scree_average_surface *s,
                                         scree_error *error)
 {
     *s = (scree_average_surface){.dimension = sample->dimension,
-                                 .width = 2 * sample->mean_radius / OF_DIAMETER,
+                                 .width = {1, 1},
                                  .columns = {1, 1},
                                  .base = find_base(sample)};
-    for (int k = 0; k < sample->dimension - 1; k++) {
-        s->origin[k] = sample->low[k];
-        s->columns[k] = (size_t)ceil((sample->high[k] - sample->low[k]) / s->width);
-        if (s->columns[k] == 0) s->columns[k] = 1;
-    }
+    lay_columns(sample, s);
     const size_t count = s->columns[0] * s->columns[1];
     double reach = -INFINITY;
     scree_status status = scree_allocate(&s->top, count, sizeof *s->top, error);
@@ -192,7 +235,11 @@ scree_status scree_average_surface_find(const scree_average_sample *sample, scre
         if (grain->counted && grain->position[sample->dimension - 1] <= reach) cover(sample, s, grain);
     }
     if (!status) status = smooth_bottom(sample, s, error);
-    if (!status) find_ends(sample, s);
+    if (!status) {
+        find_ends(sample, s);
+        open_columns(sample, s);
+        find_volume(s);
+    }
     if (status) scree_average_surface_destroy(s);
     return status;
 }
@@ -202,19 +249,20 @@ double scree_average_surface_part(const scree_average_surface *s, const scree_av
     const int up = s->dimension - 1;
     const double low = e->low[up], high = e->high[up];
     double inside = 0;
-    size_t from[2] = {0, 0}, to[2] = {0, 0};
+    int64_t from[2] = {0, 0}, to[2] = {0, 0};
     for (int k = 0; k < up; k++) {
         from[k] = column_at(s, k, e->low[k]);
         to[k] = column_at(s, k, e->high[k]);
     }
-    for (size_t i = from[0]; i <= to[0]; i++)
-        for (size_t j = from[1]; j <= to[1]; j++) {
-            const size_t k = i * s->columns[1] + j, place[2] = {i, j};
+    for (int64_t i = from[0]; i <= to[0]; i++)
+        for (int64_t j = from[1]; j <= to[1]; j++) {
+            const size_t k = place_of(s, i, j);
+            const int64_t number[2] = {i, j};
             if (isnan(s->top[k])) continue;
             double area = fmax(0, fmin(high, s->top[k]) - fmax(low, s->bottom[k]));
             for (int a = 0; a < up; a++) {
-                const double begin = s->origin[a] + (double)place[a] * s->width;
-                area *= fmax(0, fmin(e->high[a], begin + s->width) - fmax(e->low[a], begin));
+                const double begin = begin_of(s, a, number[a]);
+                area *= fmax(0, fmin(e->high[a], begin + s->width[a]) - fmax(e->low[a], begin));
             }
             inside += area;
         }

@@ -6,7 +6,13 @@
 /// mean diameter above that. The base is the lowest point where a grain touches what is no body, or the lowest grain.
 /// Columns without a grain are outside. The heap is what lies around the highest grain without a gap of more than a
 /// mean diameter, as in measure/pile.h. Grains that touch nothing count where they are not above all that do. Up is the
-/// last axis. Limits: sizes are those of the bounding circles. Cost: linear.
+/// last axis.
+///
+/// Along a direction in which the sample repeats itself the columns fill the cell and go round; all of it is the heap.
+/// Where it repeats itself upwards there is no surface: it reaches from face to face of the cell, and all is inside.
+///
+/// Limits: sizes are those of the bounding circles; columns go round along the axes, also in a cell that is sheared in
+/// the horizontal plane. Cost: linear.
 #ifndef SCREE_AVERAGE_SURFACE_H
 #define SCREE_AVERAGE_SURFACE_H
 
@@ -14,13 +20,14 @@
 
 typedef struct scree_average_surface {
     int dimension;
-    double origin[2], width; ///< m, of the columns
-    size_t columns[2];       ///< along x and y; one along y in 2D
-    double *bottom, *top;    ///< m, y fastest; NAN: no grain
-    double base, highest;    ///< m
-    double left, right;      ///< m, ends of the heap along x
-    double apex;             ///< m, x of the highest point
-    double volume;           ///< m2, m3, of all of it
+    double origin[2], width[2]; ///< m, of the columns
+    size_t columns[2];          ///< along x and y; one along y in 2D
+    bool round[2];              ///< they go round
+    double *bottom, *top;       ///< m, y fastest; NAN: no grain
+    double base, highest;       ///< m
+    double left, right;         ///< m, ends of the heap along x
+    double apex;                ///< m, x of the highest point
+    double volume;              ///< m2, m3, of all of it
 } scree_average_surface;
 
 /// Of a finished sample. Errors: memory.

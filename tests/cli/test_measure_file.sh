@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Files of grains are measured as runs are: a run's own snapshot, written as a dump with its contacts, has the numbers
-# of the run, in a sheared periodic cell and between plates; overlaps alone have its contacts and normal forces.
+# of the run, in a sheared periodic cell, between plates, and in a layer that repeats itself; overlaps alone have its contacts and normal forces.
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
 
@@ -14,13 +14,29 @@ close() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; if (d < 0) d = -
 
 run periodic-shear "${small[@]}" --set particles.count=150 -o cell
 run oedometer "${small[@]}" --set particles.count=150 -o plates
-for name in cell plates; do
+cat >layer.yaml <<'EOF'
+scree: 1
+name: layer
+seed: 2
+materials: [{name: glass, young_modulus: 1 MPa, density: 2500 kg/m3, friction: 0.5}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 150}
+contact: {law: linear}
+boundary: {periodic: x}
+stages:
+  - {stage: prepare, method: gas, aspect_ratio: 0.5, solid_fraction: 45 %}
+  - {stage: confine, pressure: 1 kPa, unbalanced_limit: 0.9}
+  - {stage: compress, rate: 5 1/s, strain: 0.5 %}
+measure: {samples: 20, cells: no}
+quick: {measure.samples: 10}
+EOF
+run layer.yaml "${small[@]}" -o layer
+for name in cell plates layer; do
     expect 0 "contacts of" "$scree" export $name -o $name.dump --contacts $name.local
     measure $name -o own >/dev/null
     measure $name.dump --case $name/case.yaml --contacts $name.local -o listed >/dev/null
     measure $name.dump --case $name/case.yaml -o overlaps >said.txt
     grep -q 'by the overlaps' said.txt || complain "$name: it is not said that contacts come of overlaps"
-    for column in time grains contacts coordination force_mean sliding_share unbalanced_ratio chains; do
+    for column in time grains contacts coordination force_mean sliding_share unbalanced_ratio chains element_side density_core density_flank; do
         close "$(value listed $column)" "$(value own $column)" 1e-6 "$name: $column with contacts"
     done
     close "$(value overlaps grains)" "$(value own grains)" 0 "$name: grains of the dump"
@@ -29,6 +45,10 @@ measure cell.dump --case cell/case.yaml -o overlaps >/dev/null
 measure cell -o own >/dev/null
 close "$(value overlaps contacts)" "$(value own contacts)" 0 'contacts by overlaps'
 close "$(value overlaps volume_fraction)" "$("$scree" get cell solid_fraction)" 1e-9 'solid fraction of a cell'
+area=$(awk '/^ITEM: ATOMS/ { sum = 0; for (k = 3; k <= NF; k++) if ($k == "radius") at = k - 2; rows = 1; next } /^ITEM/ { rows = 0 }
+    rows { sum += atan2(0, -1) * $at^2 } END { printf "%.17g", sum }' cell.dump)
+close "$(awk -v l="$(value own element_side)" -v n="$(value own element_grains)" 'BEGIN { print l * l * 150 / n }')" \
+    "$(awk -v a="$area" -v f="$("$scree" get cell solid_fraction)" 'BEGIN { print a / f }')" 1e-5 'area of the cell by the element'
 close "$(value overlaps force_mean)" "$(value own force_mean)" 0.05 'mean force by overlaps'
 
 # --- other units, other names of columns, another frame, a table of contacts
