@@ -200,7 +200,9 @@ static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT
 }
 
 static const scree_result columns[] = {
-    {"surface_angle", "degree", "of the free surface (measure.surface) with the horizontal, by a fit"},
+    {"surface_angle", "degree",
+     "of the free surface (measure.surface) with the horizontal, by a fit; positive where it rises along x, of a cone "
+     "where it falls outwards"},
 };
 
 static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)

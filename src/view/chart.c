@@ -26,6 +26,15 @@
 static const char *const palette[COLOURS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#56b4e9", "#e69f00", "#000000"};
 
+/// Of lines that come when all colours are used, and again.
+static const char *const dashes[] = {"solid", "(2,3)", "(14,3,2,3)"};
+static const int marks[] = {7, 5, 9};
+
+typedef struct line_look {
+    double width;
+    size_t number; ///< among the lines that are drawn
+} line_look;
+
 typedef struct chart_place {
     char folder[PATH_MAX];
     const char *name; ///< of the figure, without folder and extension
@@ -204,6 +213,7 @@ static void write_range(FILE *file, const scree_chart_line *line, size_t x, size
 }
 
 /// Whether a later line of the same kind lies upon line `k` along a quarter of it: closer than the width of a line.
+/// Where both are zero neither is missed.
 static bool is_hidden(const scree_chart *chart, size_t k)
 {
     const scree_chart_line *line = &chart->line[k];
@@ -220,31 +230,36 @@ static bool is_hidden(const scree_chart *chart, size_t k)
         for (size_t row = 0; row < line->count; row++) {
             if (!isfinite(line->y[row]) || !isfinite(upon->y[row])) continue;
             all++;
-            same += fabs(line->y[row] - upon->y[row]) <= 0.004 * (high - low);
+            const double width = 0.004 * (high - low);
+            same += fabs(line->y[row] - upon->y[row]) <= width && fabs(line->y[row]) > width;
         }
         if (all > 0 && 4 * same >= all) return true;
     }
     return false;
 }
 
-/// `width`: of the line; one that another lies upon is wider, so that both are seen.
-static void write_line(FILE *file, const scree_chart_line *line, double width, size_t x, size_t y, chart_scale scale,
-                       const char *colour)
+static const char *colour_of(const scree_chart_line *line, size_t number)
 {
+    return palette[line->colour > 0 ? (size_t)(line->colour - 1) % COLOURS : number % COLOURS];
+}
+
+static void write_line(FILE *file, const scree_chart_line *line, line_look look, size_t x, size_t y, chart_scale scale)
+{
+    const size_t turn = line->colour > 0 ? 0 : look.number / COLOURS % (sizeof marks / sizeof *marks);
     write_column(file, "", x, scale.x);
     write_column(file, ":", y, scale.y);
     fprintf(file, " with %s linecolor rgb '%s'",
             line->bare     ? "points"
             : line->points ? "linespoints"
                            : "lines",
-            colour);
-    fprintf(file, " linewidth %g%s%s", width, line->bare ? "" : " dashtype ",
+            colour_of(line, look.number));
+    fprintf(file, " linewidth %g%s%s", look.width, line->bare ? "" : " dashtype ",
             line->bare     ? ""
             : line->dashed ? "(7,4)"
-                           : "solid");
+                           : dashes[turn]);
     if (line->points) {
         bool large = line->low || line->bare;
-        fprintf(file, " pointtype 7 pointsize %s", line->faint ? "0.22" : large ? "1" : "0.5");
+        fprintf(file, " pointtype %d pointsize %s", marks[turn], line->faint ? "0.22" : large ? "1" : "0.5");
     }
     if (line->label) {
         fputs(" title ", file);
@@ -267,16 +282,16 @@ static void write_plot(FILE *file, const scree_chart *chart, const char *name)
             size_t y_column = ++column;
             if (line->low) column += 2;
             if (!line_drawable(chart, line)) continue;
-            const char *colour = palette[line->colour > 0 ? (size_t)(line->colour - 1) % COLOURS : written % COLOURS];
-            written++;
+            const size_t number = written++;
             if (line->low && bands != line->points) {
                 begin_plot(file, name, first);
-                write_range(file, line, x_column, y_column, scale, colour);
+                write_range(file, line, x_column, y_column, scale, colour_of(line, number));
                 first = false;
             }
             if (bands) continue;
             begin_plot(file, name, first);
-            write_line(file, line, is_hidden(chart, k) ? 5 : 2, x_column, y_column, scale, colour);
+            // One that another lies upon is wider, so that both are seen.
+            write_line(file, line, (line_look){is_hidden(chart, k) ? 5 : 2, number}, x_column, y_column, scale);
             first = false;
         }
     }

@@ -42,6 +42,7 @@ scree_status scree_draw_force_distribution(const char *path, const scree_average
     scree_status status = take(table, n, name, &b, error);
     if (status) return status;
     centre(&b, table, n);
+    while (n > 1 && !(b.value[1][n - 1] > 0) && !(b.value[2][n - 1] > 0)) n--; // empty bins at the end
     const scree_chart_line line[] = {
         {.x = b.value[0], .y = b.value[1], .count = n, .label = "contacts, normal", .points = true},
         {.x = b.value[0], .y = b.value[2], .count = n, .label = "on the floor, vertical", .points = true}};

@@ -30,7 +30,7 @@ static const path_row rows[] = {
      {{"p", "mean stress p (kPa)", 1e-3}, {"p", "mean stress p (kPa)", 1e-3}}},
     {{"path-strain", "deviator stress q over the axial strain, of all loading stages", SCREE_OF_PATHS},
      {"Deviator stress over all loading stages", "Shear stress over all loading stages"},
-     {{"strain_axial", "axial strain since the first loading (%), compression positive", 100},
+     {{"strain_axial", "logarithmic axial strain since the first loading (%), compression positive", 100},
       {"strain_shear", "shear strain since the first loading (%)", 100}}},
 };
 

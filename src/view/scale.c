@@ -36,16 +36,16 @@ double scree_quantile(const double *ascending, size_t count, double fraction)
     return ascending[below] * (1 - part) + ascending[above] * part;
 }
 
-/// Limits that are not an interval (equal values, or all but a few equal) become one.
+/// Limits that are not an interval (equal values, or all but a few equal) become one; nothing but zeros goes up from 0.
 static void widen(scree_limits *limits)
 {
     if (limits->low < limits->high) return;
     limits->low = limits->smallest;
     limits->high = limits->largest;
     if (limits->low < limits->high) return;
-    double half = limits->low == 0 ? 1 : 0.1 * fabs(limits->low);
+    const double half = 0.1 * fabs(limits->low);
     limits->low -= half;
-    limits->high += half;
+    limits->high += half == 0 ? 1 : half;
 }
 
 scree_status scree_limits_find(const double *value, size_t count, bool symmetric, scree_limits *limits,

@@ -141,6 +141,7 @@ static void limits_of_degenerate_fields_are_intervals(void **state)
             scree_limits limits;
             assert_int_equal(scree_limits_find(fields[k], 3, symmetric, &limits, NULL), SCREE_OK);
             assert_true(isfinite(limits.low) && isfinite(limits.high) && limits.low < limits.high);
+            if (k == 0) assert_true(limits.low == (symmetric ? -1 : 0) && limits.high == 1);
         }
 }
 
