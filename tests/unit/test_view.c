@@ -445,6 +445,30 @@ static void chart_is_written_and_drawn_again_by_its_script(void **state)
     free(data);
 }
 
+/// No two of them look alike.
+static void more_lines_than_colours_are_dashed(void **state)
+{
+    (void)state;
+    enum { LINES = 16 };
+    static double shifted[LINES][ROWS];
+    scree_chart_line line[LINES];
+    char *last = NULL, look[LINES][64];
+    for (int k = 0; k < LINES; k++) line[k] = (scree_chart_line){.x = strain, .y = shifted[k], .count = ROWS};
+    const scree_chart chart = make_chart(line, LINES);
+    for (int k = 0; k < LINES; k++)
+        for (int row = 0; row < ROWS; row++) shifted[k][row] = ratio[row] + k;
+    assert_charts("many", &chart);
+    char *script = read_whole("many.gp");
+    for (int k = 0; k < LINES; k++) {
+        last = strstr(last ? last + 1 : script, "with lines linecolor");
+        assert_non_null(last);
+        assert_int_equal(sscanf(last, "with lines linecolor %63[^\n]", look[k]), 1);
+        *strstr(look[k], " notitle") = '\0';
+        for (int other = 0; other < k; other++) assert_string_not_equal(look[k], look[other]);
+    }
+    free(script);
+}
+
 /// Nothing that stands in a text is run or breaks the figure.
 static void texts_of_a_chart_are_only_texts(void **state)
 {
@@ -604,6 +628,7 @@ int main(void)
         cmocka_unit_test(scene_that_cannot_be_drawn_says_so),
         cmocka_unit_test(scene_survives_lack_of_memory),
         cmocka_unit_test(chart_is_written_and_drawn_again_by_its_script),
+        cmocka_unit_test(more_lines_than_colours_are_dashed),
         cmocka_unit_test(texts_of_a_chart_are_only_texts),
         cmocka_unit_test(charts_of_odd_values),
         cmocka_unit_test(small_numbers_and_long_names_stay_legible),
