@@ -76,13 +76,11 @@ static scree_status check_side(const scree_average_view *view, scree_error *erro
 {
     const double width = 2 * view->frame.half;
     if (view->frame.side <= view->frame.height && view->frame.side <= width) return SCREE_OK;
-    scree_status status = scree_error_set(
-        error, SCREE_ERROR_INPUT,
+    return scree_error_refuse(
+        error, "--element", NULL,
         "an element of %.3g m (%.0f grains) is larger than the sample, which is %.3g m wide and %.3g m high with %zu "
         "grains: take fewer grains",
         view->frame.side, view->grains, width, view->frame.height, view->sample->counted);
-    if (error) (void)snprintf(error->field, sizeof error->field, "--element");
-    return status;
 }
 
 scree_status scree_average_view_open(scree_average_sample *sample, const scree_average_plan *plan,

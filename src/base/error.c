@@ -37,6 +37,26 @@ scree_status scree_error_set_errno(scree_error *error, scree_status status, cons
     return status;
 }
 
+scree_status scree_error_refuse(scree_error *error, const char *key, const char *accepted, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fill(error, SCREE_ERROR_INPUT, format, arguments);
+    va_end(arguments);
+    if (error && accepted) (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
+    return key ? scree_error_key(error, SCREE_ERROR_INPUT, "%s", key) : SCREE_ERROR_INPUT;
+}
+
+scree_status scree_error_key(scree_error *error, scree_status status, const char *format, ...)
+{
+    va_list arguments;
+    if (!error || !status) return status;
+    va_start(arguments, format);
+    (void)vsnprintf(error->field, sizeof error->field, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
 scree_status scree_error_set_memory(scree_error *error, size_t bytes)
 {
     return scree_error_set(error, SCREE_ERROR_IO, "out of memory: %zu bytes were asked for", bytes);

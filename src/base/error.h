@@ -17,6 +17,15 @@ scree_status scree_error_set(scree_error *error, scree_status status, const char
 /// The same for a failed system call: appends ": " and strerror(errno).
 scree_status scree_error_set_errno(scree_error *error, scree_status status, const char *format, ...) SCREE_PRINTF(3, 4);
 
+/// Wrong input: what is wrong with `key` (of the case, or an option; NULL: with none), and what is accepted in its
+/// place (NULL: nothing is listed).
+scree_status scree_error_refuse(scree_error *error, const char *key, const char *accepted, const char *format, ...)
+    SCREE_PRINTF(4, 5);
+
+/// The key that an error which has been set is of, e.g. "walls.3.file". Returns the status; nothing happens where it is
+/// SCREE_OK or `error` is NULL.
+scree_status scree_error_key(scree_error *error, scree_status status, const char *format, ...) SCREE_PRINTF(3, 4);
+
 /// Out of memory, with the number of bytes that were asked for.
 scree_status scree_error_set_memory(scree_error *error, size_t bytes);
 

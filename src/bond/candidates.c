@@ -17,12 +17,6 @@
 
 typedef scree_bond_candidate candidate;
 
-static scree_status refuse(scree_error *error, const char *key, scree_status status)
-{
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", key);
-    return status;
-}
-
 static scree_status append(scree_bond_candidates *all, candidate pair, scree_error *error)
 {
     if (all->count == all->capacity) {
@@ -93,15 +87,13 @@ static scree_status find_listed(const scree_state *state, const scree_bond_order
         for (int i = 0; i < 2; i++) {
             const uint32_t row = scree_state_row_of(state, id[i]);
             if (row == SCREE_NO_ROW)
-                return refuse(error, "list",
-                              scree_error_set(error, SCREE_ERROR_INPUT,
-                                              "names particle %llu, which is not there (%zu particles are)",
-                                              (unsigned long long)id[i], state->count));
+                return scree_error_refuse(error, "list", NULL,
+                                          "names particle %llu, which is not there (%zu particles are)",
+                                          (unsigned long long)id[i], state->count);
             if (!scree_body_is_grain(state, row))
-                return refuse(error, "list",
-                              scree_error_set(error, SCREE_ERROR_INPUT,
-                                              "names body %llu, which is one of a membrane: only particles are bonded",
-                                              (unsigned long long)id[i]));
+                return scree_error_refuse(error, "list", NULL,
+                                          "names body %llu, which is one of a membrane: only particles are bonded",
+                                          (unsigned long long)id[i]);
         }
         scree_persistent_member pair = {.first = (uint32_t)fmin(order->list[k][0], order->list[k][1]),
                                         .second = (uint32_t)fmax(order->list[k][0], order->list[k][1])};
@@ -121,18 +113,15 @@ static scree_status check_twice(const scree_state *state, const scree_bond_order
 {
     const candidate *pair = &all->pair[k];
     if (k > 0 && pair[-1].first == pair->first && pair[-1].second == pair->second)
-        return refuse(error, order->list ? "list" : "gap_tolerance",
-                      scree_error_set(error, SCREE_ERROR_INPUT, "particles %u and %u would be bonded twice%s",
-                                      pair->first, pair->second,
-                                      order->list ? ": name each pair once"
-                                                  : ", on both sides of the periodic cell: try a larger cell"));
+        return scree_error_refuse(error, order->list ? "list" : "gap_tolerance", NULL,
+                                  "particles %u and %u would be bonded twice%s", pair->first, pair->second,
+                                  order->list ? ": name each pair once"
+                                              : ", on both sides of the periodic cell: try a larger cell");
     const size_t held = scree_persistent_find(state, pair->first, pair->second);
     if (held == SIZE_MAX) return SCREE_OK;
     const bool broken = scree_persistent(state)->member[held].constant[SCREE_MEMBER_TENSION] < 0;
-    return refuse(error, "list",
-                  scree_error_set(error, SCREE_ERROR_INPUT, "particles %u and %u %s: leave them out", pair->first,
-                                  pair->second,
-                                  broken ? "had a bond that broke, and have not parted yet" : "are bonded already"));
+    return scree_error_refuse(error, "list", NULL, "particles %u and %u %s: leave them out", pair->first, pair->second,
+                              broken ? "had a bond that broke, and have not parted yet" : "are bonded already");
 }
 
 static scree_status check_gap(const scree_state *state, const scree_bond_order *order, const candidate *pair,
@@ -142,18 +131,16 @@ static scree_status check_gap(const scree_state *state, const scree_bond_order *
                               state->row[scree_state_row_of(state, pair->second)].radius);
     const double overlap = isnan(order->overlap_tolerance) ? OVERLAP_TOLERANCE * least : order->overlap_tolerance;
     if (!order->list && pair->gap >= SECOND_NEIGHBOUR * least)
-        return refuse(error, "gap_tolerance",
-                      scree_error_set(error, SCREE_ERROR_INPUT,
-                                      "%.4g m would bond second neighbours: particles %u and %u have a gap of %.4g m, "
-                                      "more than %g of the smaller radius (%.4g m); try a tolerance below %.4g m",
-                                      order->gap_tolerance, pair->first, pair->second, pair->gap, SECOND_NEIGHBOUR,
-                                      least, SECOND_NEIGHBOUR * least));
+        return scree_error_refuse(error, "gap_tolerance", NULL,
+                                  "%.4g m would bond second neighbours: particles %u and %u have a gap of %.4g m, "
+                                  "more than %g of the smaller radius (%.4g m); try a tolerance below %.4g m",
+                                  order->gap_tolerance, pair->first, pair->second, pair->gap, SECOND_NEIGHBOUR, least,
+                                  SECOND_NEIGHBOUR * least);
     if (-pair->gap > overlap)
-        return refuse(error, "overlap_tolerance",
-                      scree_error_set(error, SCREE_ERROR_INPUT,
-                                      "particles %u and %u overlap by %.4g m, more than the tolerance (%.4g m): let "
-                                      "them come to rest farther apart, or allow it with a larger tolerance",
-                                      pair->first, pair->second, -pair->gap, overlap));
+        return scree_error_refuse(error, "overlap_tolerance", NULL,
+                                  "particles %u and %u overlap by %.4g m, more than the tolerance (%.4g m): let "
+                                  "them come to rest farther apart, or allow it with a larger tolerance",
+                                  pair->first, pair->second, -pair->gap, overlap);
     return SCREE_OK;
 }
 
@@ -172,11 +159,10 @@ scree_status scree_bond_candidates_find(const scree_model *model, scree_state *s
         order->list ? find_listed(state, order, all, error) : find_within(model, state, work, order, all, error);
     if (status) return status;
     if (all->count == 0)
-        return refuse(error, "gap_tolerance",
-                      scree_error_set(error, SCREE_ERROR_INPUT,
-                                      "nothing is bonded: no two particles that are meant, and not held already, have "
-                                      "a gap below %.4g m; try a larger tolerance",
-                                      order->gap_tolerance));
+        return scree_error_refuse(error, "gap_tolerance", NULL,
+                                  "nothing is bonded: no two particles that are meant, and not held already, have "
+                                  "a gap below %.4g m; try a larger tolerance",
+                                  order->gap_tolerance);
     qsort(all->pair, all->count, sizeof *all->pair, compare);
     for (size_t k = 0; k < all->count && !status; k++) {
         status = check_twice(state, order, all, k, error);

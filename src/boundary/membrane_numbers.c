@@ -6,14 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FIELD_ERROR(error, path, ...) set_field(error, scree_error_set(error, SCREE_ERROR_INPUT, __VA_ARGS__), path)
-
-static scree_status set_field(scree_error *error, scree_status status, const char *path)
-{
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", path);
-    return status;
-}
-
 static const scree_membrane_config *own_config(const scree_model *model)
 {
     return scree_config_own(&scree_module_membrane, "boundary", model->config->boundary.own);
@@ -45,10 +37,11 @@ static scree_status check_radius(const scree_model *model, double radius, scree_
 {
     double hole = 0.25 * radius;
     if (model->dimension == 2 || hole < model->radius_min) return SCREE_OK;
-    return FIELD_ERROR(error, "boundary.membrane_radius",
-                       "between spheres of a membrane of radius %.3g m a sphere of %.3g m slips through, and the "
-                       "smallest has %.3g m: give a smaller radius",
-                       radius, hole, model->radius_min);
+    return scree_error_refuse(
+        error, "boundary.membrane_radius", NULL,
+        "between spheres of a membrane of radius %.3g m a sphere of %.3g m slips through, and the "
+        "smallest has %.3g m: give a smaller radius",
+        radius, hole, model->radius_min);
 }
 
 static void copy_material(scree_model *model, int from, int to)
@@ -72,8 +65,8 @@ scree_status scree_membrane_resolve(scree_model *model, scree_error *error)
 {
     scree_membrane_numbers *own = scree_model_reserve_numbers(model, SCREE_SLOT_membrane);
     if (model->material_count == SCREE_MAX_MATERIALS)
-        return FIELD_ERROR(error, "materials", "a case with a membrane has at most %d materials",
-                           SCREE_MAX_MATERIALS - 1);
+        return scree_error_refuse(error, "materials", NULL, "a case with a membrane has at most %d materials",
+                                  SCREE_MAX_MATERIALS - 1);
     own->material = model->material_count;
     copy_material(model, model->species[0].material, own->material);
     scree_model_make_frictionless(model, own->material);
@@ -81,8 +74,8 @@ scree_status scree_membrane_resolve(scree_model *model, scree_error *error)
     model->added_radius = own->radius = resolve_radius(model);
     double limit = resolve_springs(model, own), step = (double)model->large_multiple * model->step;
     if (step <= limit) return check_radius(model, own->radius, error);
-    return FIELD_ERROR(
-        error, "boundary.membrane_stiffness",
+    return scree_error_refuse(
+        error, "boundary.membrane_stiffness", NULL,
         "the springs of the membrane need a step of at most %.2g s, this case has %.2g s: give a smaller "
         "stiffness or step",
         limit, step);

@@ -8,13 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void accept(scree_error *error, const char *option, const char *accepted)
-{
-    if (!error) return;
-    (void)snprintf(error->field, sizeof error->field, "%s", option);
-    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-}
-
 scree_status scree_snapshot_refuse_when(const scree_snapshot_mark *mark, size_t count, const char *when,
                                         const char *option, scree_error *error)
 {
@@ -23,9 +16,7 @@ scree_status scree_snapshot_refuse_when(const scree_snapshot_mark *mark, size_t 
     for (size_t k = 0; k < count && used < sizeof text; k++)
         if (k == 0 || strcmp(mark[k].stage_name, mark[k - 1].stage_name) != 0)
             used += (size_t)snprintf(text + used, sizeof text - used, ", %s", mark[k].stage_name);
-    (void)scree_error_set(error, SCREE_ERROR_INPUT, "the run has no snapshot of '%s'", when);
-    accept(error, option, text);
-    return SCREE_ERROR_INPUT;
+    return scree_error_refuse(error, option, text, "the run has no snapshot of '%s'", when);
 }
 
 /// The snapshot nearest to a strain or a time; of several, the last. SIZE_MAX: none has one.
@@ -45,10 +36,8 @@ static scree_status find_nearest(const scree_snapshot_mark *mark, size_t count, 
     const double unit = is_time ? 1 : 100;
     const char *name = is_time ? "s" : "%";
     char range[80];
-    (void)scree_error_set(error, SCREE_ERROR_INPUT, "the run does not reach '%.4g %s'", unit * wanted, name);
     (void)snprintf(range, sizeof range, "%.4g %s to %.4g %s", unit * low, name, unit * high, name);
-    accept(error, option, range);
-    return SCREE_ERROR_INPUT;
+    return scree_error_refuse(error, option, range, "the run does not reach '%.4g %s'", unit * wanted, name);
 }
 
 scree_status scree_snapshot_find_when(const scree_snapshot_mark *mark, size_t count, const char *when,

@@ -176,9 +176,8 @@ static scree_status write_frame(FILE *file, const char *directory, const scree_s
 /// The stages that there are, where one that is not was asked for.
 static scree_status refuse_stage(const char *stage, const scree_snapshot_mark *mark, size_t count, scree_error *error)
 {
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "the run has no snapshot of a stage '%s'", stage);
+    scree_status status = scree_error_refuse(error, "--stage", NULL, "the run has no snapshot of a stage '%s'", stage);
     size_t used = 0;
-    (void)snprintf(error->field, sizeof error->field, "--stage");
     for (size_t k = 0; k < count && used < sizeof error->accepted; k++)
         if (k == 0 || strcmp(mark[k].stage_name, mark[k - 1].stage_name) != 0)
             used += (size_t)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s",

@@ -205,15 +205,15 @@ static scree_status check_kinds(const char *const *runs, size_t count, const scr
 {
     size_t files = 0;
     for (size_t k = 0; k < count; k++) {
-        if (access(runs[k], F_OK) != 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", runs[k]);
+        if (access(runs[k], F_OK) != 0)
+            return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", runs[k]);
         files += measure_is_file(runs[k]);
     }
     const char *wrong = files > 0 ? NULL : options->sample_case ? "case" : options->contacts ? "contacts" : NULL;
     if (!wrong && (!options->contacts || files <= 1)) return SCREE_OK;
     (void)scree_error_set(error, SCREE_ERROR_INPUT,
                           wrong ? "it is of files of grains; a run has its own" : "contacts are those of one file");
-    if (error) (void)snprintf(error->field, sizeof error->field, "--%s", wrong ? wrong : "contacts");
-    return SCREE_ERROR_INPUT;
+    return scree_error_key(error, SCREE_ERROR_INPUT, "--%s", wrong ? wrong : "contacts");
 }
 
 scree_status scree_measure_check(const scree_measure_options *options, scree_error *error)

@@ -31,37 +31,21 @@ bool measure_is_file(const char *path)
     return stat(path, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-static scree_status refuse(const char *path, const char *field, const char *accepted, scree_error *error,
-                           const char *format, ...) SCREE_PRINTF(5, 6);
-static scree_status refuse(const char *path, const char *field, const char *accepted, scree_error *error,
-                           const char *format, ...)
-{
-    char text[500];
-    va_list list;
-    va_start(list, format);
-    (void)vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    const scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
-    if (!error) return status;
-    (void)snprintf(error->file, sizeof error->file, "%s", path);
-    if (field) (void)snprintf(error->field, sizeof error->field, "--%s", field);
-    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 // ---- options -----------------------------------------------------------------------------------------------------
 
 /// The frame of `--at`: the last one, or the one of a time step.
-static scree_status read_frame(const char *path, const measure_plan *plan, double *frame, scree_error *error)
+static scree_status read_frame(const measure_plan *plan, double *frame, scree_error *error)
 {
     char *end;
     *frame = NAN;
-    if (plan->mean) return refuse(path, "at", "end, #TIMESTEP", error, "means over snapshots are those of a run");
-    if (plan->from) return refuse(path, "from", "", error, "a file of grains is of one instant: --from is of runs");
+    if (plan->mean)
+        return scree_error_refuse(error, "--at", "end, #TIMESTEP", "means over snapshots are those of a run");
+    if (plan->from)
+        return scree_error_refuse(error, "--from", NULL, "a file of grains is of one instant: --from is of runs");
     if (strcmp(plan->at, "end") == 0) return SCREE_OK;
     *frame = strtod(plan->at + (*plan->at == '#'), &end);
     if (*plan->at == '#' && end != plan->at + 1 && *end == 0) return SCREE_OK;
-    return refuse(path, "at", "end, #TIMESTEP", error, "'%s' is no frame of a file", plan->at);
+    return scree_error_refuse(error, "--at", "end, #TIMESTEP", "'%s' is no frame of a file", plan->at);
 }
 
 /// In which the sample repeats itself: what the file says, else the case.
@@ -71,34 +55,35 @@ static unsigned directions_of(const measure_plan *plan, const scree_model *model
     return all & (g->sided ? g->periodic : (unsigned)plan->options->sample_case->config.boundary.periodic);
 }
 
-static scree_status check(const char *path, const measure_plan *plan, const scree_model *model, const scree_grains *g,
-                          scree_error *error)
+static scree_status check(const measure_plan *plan, const scree_model *model, const scree_grains *g, scree_error *error)
 {
     double lower, upper;
     if (!g->column[SCREE_GRAIN_RADIUS])
-        return refuse(path, NULL, "", error, "the file has no radii: write a column radius or diameter");
+        return scree_error_set(error, SCREE_ERROR_INPUT, "the file has no radii: write a column radius or diameter");
     if (model->dimension == 3 && !g->column[SCREE_GRAIN_Z])
-        return refuse(path, NULL, "", error, "the file has no column z: its grains lie in a plane, the case in space");
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "the file has no column z: its grains lie in a plane, the case in space");
     if (model->dimension == 3 && scree_grains_are_flat(g))
-        return refuse(path, NULL, "", error, "z of all grains is 0: they lie in a plane, the case in space");
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "z of all grains is 0: they lie in a plane, the case in space");
     if (model->dimension == 2 && !scree_grains_are_2d(g, &lower, &upper))
-        return refuse(path, NULL, "", error,
-                      "z of the grains goes from %.6g to %.6g m: they lie in space, and the case in a plane", lower,
-                      upper);
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "z of the grains goes from %.6g to %.6g m: they lie in space, and the case in a plane",
+                               lower, upper);
     if (directions_of(plan, model, g) && !g->bounded)
-        return refuse(path, NULL, "", error, "the case repeats itself, and the file says no box");
+        return scree_error_set(error, SCREE_ERROR_INPUT, "the case repeats itself, and the file says no box");
     for (size_t i = 0; i < g->count; i++)
         if (!(g->column[SCREE_GRAIN_RADIUS][i] > 0))
-            return refuse(path, NULL, "", error, "the radius of a grain is %.6g m: all must be above 0",
-                          g->column[SCREE_GRAIN_RADIUS][i]);
+            return scree_error_set(error, SCREE_ERROR_INPUT, "the radius of a grain is %.6g m: all must be above 0",
+                                   g->column[SCREE_GRAIN_RADIUS][i]);
     return SCREE_OK;
 }
 
 // ---- the state ---------------------------------------------------------------------------------------------------
 
 /// Numbers of the model of the materials that the kinds of the file mean.
-static scree_status find_materials(const char *path, const measure_plan *plan, const scree_model *model,
-                                   const scree_grains *g, int *material, scree_error *error)
+static scree_status find_materials(const measure_plan *plan, const scree_model *model, const scree_grains *g,
+                                   int *material, scree_error *error)
 {
     const scree_config *config = &plan->options->sample_case->config;
     const char *names[SCREE_MAX_MATERIALS];
@@ -111,10 +96,11 @@ static scree_status find_materials(const char *path, const measure_plan *plan, c
         for (int m = 0; m < model->material_count && found >= 0; m++)
             if (model->listed[m] == found) material[kind] = m;
         if (material[kind] < 0)
-            return refuse(path, "case", "", error,
-                          "no particles of the case are of a material '%s': it must have those of the file, by name, "
-                          "or in the order of its numbers",
-                          g->kind_name[kind]);
+            return scree_error_refuse(
+                error, "--case", NULL,
+                "no particles of the case are of a material '%s': it must have those of the file, by name, "
+                "or in the order of its numbers",
+                g->kind_name[kind]);
     }
     return SCREE_OK;
 }
@@ -199,12 +185,12 @@ static scree_status take_state(const scree_model *model, scree_state *state, boo
     return status;
 }
 
-static scree_status fill(const char *path, const measure_plan *plan, const scree_model *model, const scree_grains *g,
+static scree_status fill(const measure_plan *plan, const scree_model *model, const scree_grains *g,
                          scree_average_sample *sample, scree_error *error)
 {
     scree_state state;
     int material[SCREE_GRAIN_KINDS];
-    scree_status status = find_materials(path, plan, model, g, material, error);
+    scree_status status = find_materials(plan, model, g, material, error);
     if (!status) status = scree_state_create(&state, model->dimension, g->count, error);
     if (status) return status;
     scree_state_set_laws(&state, model);
@@ -246,8 +232,8 @@ static scree_status find_place(const grain_place *places, size_t count, int64_t 
     const grain_place wanted = {.id = id}, *found = bsearch(&wanted, places, count, sizeof *places, by_id);
     *place = found ? found->place : SCREE_AVERAGE_OUTSIDE;
     return found ? SCREE_OK
-                 : refuse("", "contacts", "", error, "a contact is of grain %lld, and there is none of this id",
-                          (long long)id);
+                 : scree_error_refuse(error, "--contacts", NULL,
+                                      "a contact is of grain %lld, and there is none of this id", (long long)id);
 }
 
 /// The shortest way between two places of a sample that repeats itself.
@@ -329,7 +315,7 @@ static scree_status take_contacts(const measure_plan *plan, const scree_grain_co
         if (!status && c->second[k] >= 0)
             status = find_place(places, sample->bodies, c->second[k], &contact->second, error);
         if (!status && contact->first == contact->second)
-            status = refuse("", "contacts", "", error, "grain %lld touches itself", (long long)c->first[k]);
+            status = scree_error_refuse(error, "--contacts", NULL, "grain %lld touches itself", (long long)c->first[k]);
         if (status) break;
         memcpy(contact->force, c->force[k], sizeof contact->force);
         place_contact(sample, inverse, c->point ? c->point[k] : NULL, contact);
@@ -385,8 +371,8 @@ static scree_status read_with(const char *path, const measure_plan *plan, double
     scree_grains g;
     scree_status status = scree_grains_read(path, &options, &g, error);
     if (status) return status;
-    status = check(path, plan, model, &g, error);
-    if (!status) status = fill(path, plan, model, &g, sample, error);
+    status = check(plan, model, &g, error);
+    if (!status) status = fill(plan, model, &g, sample, error);
     if (!status) {
         status = read_contacts(plan, &g, frame, sample, error);
         if (!status) sum_resultants(sample);
@@ -398,21 +384,16 @@ static scree_status read_with(const char *path, const measure_plan *plan, double
     return status;
 }
 
-scree_status measure_file_sample(const char *path, const measure_plan *plan, scree_average_sample *sample,
-                                 scree_error *error)
+/// The sample under the model of the case.
+static scree_status take_sample(const char *path, const measure_plan *plan, const scree_model *model,
+                                scree_average_sample *sample, scree_error *error)
 {
-    scree_model model;
     double frame;
-    *sample = (scree_average_sample){0};
-    if (!plan->options->sample_case)
-        return refuse(path, "case", "a case file, or the name of a built-in case", error,
-                      "a file of grains says neither material nor law: give a case that does");
-    scree_status status = read_frame(path, plan, &frame, error);
-    if (!status) status = scree_model_build(&plan->options->sample_case->config, &model, error);
-    if (!status && scree_model_traits(&model)->areas)
-        status = refuse(path, "case", "a law of round grains", error,
-                        "the law of the case is of polygons, and the grains of a file are round");
-    if (!status) status = read_with(path, plan, frame, &model, sample, error);
+    if (scree_model_traits(model)->areas)
+        return scree_error_refuse(error, "--case", "a law of round grains",
+                                  "the law of the case is of polygons, and the grains of a file are round");
+    scree_status status = read_frame(plan, &frame, error);
+    if (!status) status = read_with(path, plan, frame, model, sample, error);
     if (!status && plan->options->contacts && isnan(common_friction(plan)))
         measure_say(plan, "%s: materials of the case differ in friction: contacts that slide are not told", path);
     if (!status && !plan->options->contacts)
@@ -420,5 +401,24 @@ scree_status measure_file_sample(const char *path, const measure_plan *plan, scr
                     "%s: %zu contacts by the overlaps of its grains, under the law of the case; what springs along "
                     "contacts bear, and walls, are not known",
                     path, sample->contacts);
+    return status;
+}
+
+scree_status measure_file_sample(const char *path, const measure_plan *plan, scree_average_sample *sample,
+                                 scree_error *error)
+{
+    scree_model model;
+    scree_status status;
+    *sample = (scree_average_sample){0};
+    if (plan->options->sample_case) {
+        status = scree_model_build(&plan->options->sample_case->config, &model, error);
+        if (status) return status;
+        status = take_sample(path, plan, &model, sample, error);
+    } else {
+        status = scree_error_refuse(error, "--case", "a case file, or the name of a built-in case",
+                                    "a file of grains says neither material nor law: give a case that does");
+    }
+    if (status == SCREE_ERROR_INPUT && error && !error->file[0])
+        (void)snprintf(error->file, sizeof error->file, "%s", path);
     return status;
 }

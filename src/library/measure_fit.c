@@ -42,13 +42,6 @@ typedef struct piles {
     size_t column[COMPONENTS], x, y, inside;
 } piles;
 
-static scree_status refuse(scree_error *error, const char *message)
-{
-    (void)scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
-    if (error) (void)snprintf(error->field, sizeof error->field, "--fit");
-    return SCREE_ERROR_INPUT;
-}
-
 // ---- points ------------------------------------------------------------------------------------------------------
 
 /// Mean of a value over the piles.
@@ -292,8 +285,10 @@ static scree_status find_numbers(measure_fits *fits, const piles *p, scree_error
     size_t fitted = 0;
     for (size_t k = 0; k < fits->rows; k++) fitted += fits->row[k].fitted;
     if (fitted < 2)
-        return refuse(error, "the piles are too small for their elements: fewer than two lie within them side by side "
-                             "(--element)");
+        return scree_error_refuse(
+            error, "--fit", NULL,
+            "the piles are too small for their elements: fewer than two lie within them side by side "
+            "(--element)");
     scree_status status = fit_all(fits, p, error);
     const double half = mean_value(p, "triangle_height") * 0.5 * (1 / tan(fits->slope[0]) + 1 / tan(fits->slope[1]));
     tell_closure(fits, "axis", 0, AXIS, half);
@@ -342,18 +337,21 @@ scree_status measure_fit(const measure_tables *each, size_t count, const measure
     piles p = {.each = each, .count = count, .without = SIZE_MAX, .plan = plan, .found = found};
     static const char *const names[COMPONENTS] = {"stress_xx", "stress_yy", "stress_xy"};
     if (count < MEASURE_FIT_RUNS)
-        return refuse(error, "theories are fitted to the mean of three piles or more: their scatter is the error");
+        return scree_error_refuse(error, "--fit", NULL,
+                                  "theories are fitted to the mean of three piles or more: their scatter is the error");
     for (int c = 0; c < COMPONENTS; c++) p.column[c] = scree_average_table_find(cuts, names[c]);
     p.x = scree_average_table_find(cuts, "x");
     p.y = scree_average_table_find(cuts, "y");
     p.inside = scree_average_table_find(cuts, "inside");
     if (p.column[0] == SIZE_MAX || p.y == SIZE_MAX || p.inside == SIZE_MAX)
-        return refuse(error, "fits need stresses along cuts (--fields stress) of a plane sample");
+        return scree_error_refuse(error, "--fit", NULL,
+                                  "fits need stresses along cuts (--fields stress) of a plane sample");
     if (height == SIZE_MAX || !(values->value[height] > 0))
-        return refuse(error, "fits are of plane piles under gravity");
+        return scree_error_refuse(error, "--fit", NULL, "fits are of plane piles under gravity");
     for (size_t k = 0; k < plan->fits && plan->two_slopes; k++)
         if (strncmp(plan->fit[k], "wedge", 5) != 0)
-            return refuse(error, "only the wedges have two slopes: --two-slopes with --fit wedge");
+            return scree_error_refuse(error, "--fit", NULL,
+                                      "only the wedges have two slopes: --two-slopes with --fit wedge");
     scree_status status = scree_allocate(&found->fits, 1, sizeof *found->fits, error);
     if (status) return status;
     found->fits->count = plan->fits;

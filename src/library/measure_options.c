@@ -9,20 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-__attribute__((format(printf, 4, 5))) static scree_status refuse(scree_error *error, const char *field,
-                                                                 const char *accepted, const char *format, ...)
-{
-    char text[400];
-    va_list list;
-    va_start(list, format);
-    (void)vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    (void)scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
-    if (error) (void)snprintf(error->field, sizeof error->field, "--%s", field);
-    if (error) (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return SCREE_ERROR_INPUT;
-}
-
 /// A number and nothing behind it.
 static bool read_number(const char *text, double *value)
 {
@@ -42,12 +28,12 @@ static scree_status read_fields(const char *text, unsigned *fields, scree_error 
                                              strncmp(scree_average_field_names[k], at, length) == 0))
             k++;
         if (k == SCREE_AVERAGE_FIELDS)
-            return refuse(error, "fields", accepted, "there is no field '%.*s'", (int)length, at);
+            return scree_error_refuse(error, "--fields", accepted, "there is no field '%.*s'", (int)length, at);
         *fields |= 1U << k;
         at += length;
         at += *at == ',';
     }
-    return *fields ? SCREE_OK : refuse(error, "fields", accepted, "no field is named");
+    return *fields ? SCREE_OK : scree_error_refuse(error, "--fields", accepted, "no field is named");
 }
 
 /// A number of cuts, or their heights.
@@ -65,11 +51,11 @@ static scree_status read_cuts(const char *text, scree_average_plan *plan, scree_
         char *end;
         value = strtod(at, &end);
         if (end == at || (*end && *end != ',') || !(value >= 0 && value <= 1) || plan->cuts == SCREE_AVERAGE_CUTS)
-            return refuse(error, "cuts", accepted, "'%s' says no heights of cuts", text);
+            return scree_error_refuse(error, "--cuts", accepted, "'%s' says no heights of cuts", text);
         plan->height[plan->cuts++] = value;
         at = end + (*end == ',');
     }
-    return plan->cuts > 0 ? SCREE_OK : refuse(error, "cuts", accepted, "no cut is named");
+    return plan->cuts > 0 ? SCREE_OK : scree_error_refuse(error, "--cuts", accepted, "no cut is named");
 }
 
 static scree_status read_sizes(const char *text, scree_average_plan *plan, scree_error *error)
@@ -82,11 +68,11 @@ static scree_status read_sizes(const char *text, scree_average_plan *plan, scree
         const double last = plan->sizes > 0 ? plan->size[plan->sizes - 1] : 0;
         if (end == at || (*end && *end != ',') || !(value >= 1 && value > last && value < 1e12) ||
             plan->sizes == SCREE_AVERAGE_SIZES)
-            return refuse(error, "sizes", accepted, "'%s' says no sizes of elements", text);
+            return scree_error_refuse(error, "--sizes", accepted, "'%s' says no sizes of elements", text);
         plan->size[plan->sizes++] = value;
         at = end + (*end == ',');
     }
-    return plan->sizes > 0 ? SCREE_OK : refuse(error, "sizes", accepted, "no size is named");
+    return plan->sizes > 0 ? SCREE_OK : scree_error_refuse(error, "--sizes", accepted, "no size is named");
 }
 
 /// Names of theories; `wedge` are all four of them.
@@ -105,11 +91,11 @@ static scree_status read_fits(const char *text, measure_plan *plan, scree_error 
             if (pile && meant && plan->fits < MEASURE_FITS) plan->fit[plan->fits++] = name;
         }
         if (plan->fits == before)
-            return refuse(error, "fit", accepted, "there is no theory of piles '%.*s'", (int)length, at);
+            return scree_error_refuse(error, "--fit", accepted, "there is no theory of piles '%.*s'", (int)length, at);
         at += length;
         at += *at == ',';
     }
-    return plan->fits > 0 ? SCREE_OK : refuse(error, "fit", accepted, "no theory is named");
+    return plan->fits > 0 ? SCREE_OK : scree_error_refuse(error, "--fit", accepted, "no theory is named");
 }
 
 static scree_status read_element(const char *text, measure_plan *whole, scree_error *error)
@@ -119,12 +105,15 @@ static scree_status read_element(const char *text, measure_plan *whole, scree_er
     scree_error problem = {0};
     const size_t length = strlen(text);
     if (length > 1 && text[length - 1] == '%' && !scree_units_parse(text, "1", &whole->share, &problem))
-        return whole->share > 0 && whole->share < 1 ? SCREE_OK
-                                                    : refuse(error, "element", accepted, "'%s' is no part", text);
+        return whole->share > 0 && whole->share < 1
+                   ? SCREE_OK
+                   : scree_error_refuse(error, "--element", accepted, "'%s' is no part", text);
     if (read_number(text, &plan->grains))
-        return plan->grains >= 1 ? SCREE_OK : refuse(error, "element", accepted, "'%s' are no grains", text);
+        return plan->grains >= 1 ? SCREE_OK
+                                 : scree_error_refuse(error, "--element", accepted, "'%s' are no grains", text);
     if (scree_units_parse(text, "m", &plan->side, &problem) || !(plan->side > 0))
-        return refuse(error, "element", accepted, "'%s' is neither a number of grains nor a length", text);
+        return scree_error_refuse(error, "--element", accepted, "'%s' is neither a number of grains nor a length",
+                                  text);
     return SCREE_OK;
 }
 
@@ -137,8 +126,8 @@ static scree_status read_grid(const char *text, scree_average_plan *plan, scree_
                          ? 2
                          : (sscanf(text, "%zux%zux%zu%c", &n[0], &n[1], &n[2], &rest) == 3 ? 3 : 0);
     if (read == 0 || n[0] < 1 || n[1] < 1 || (read == 3 && n[2] < 1) || n[0] > 4096 || n[1] > 4096 || n[2] > 4096)
-        return refuse(error, "grid", "points, such as 100x50 or in 3D 20x20x20, up to 4096 each", "'%s' is no grid",
-                      text);
+        return scree_error_refuse(error, "--grid", "points, such as 100x50 or in 3D 20x20x20, up to 4096 each",
+                                  "'%s' is no grid", text);
     return SCREE_OK;
 }
 
@@ -148,7 +137,8 @@ static scree_status read_kernel(const char *text, measure_plan *plan, scree_erro
     plan->kernel = true;
     if (read_number(text, &plan->kernel_diameters) && plan->kernel_diameters > 0) return SCREE_OK;
     if (!scree_units_parse(text, "m", &plan->kernel_width, &problem) && plan->kernel_width > 0) return SCREE_OK;
-    return refuse(error, "kernel", "mean diameters, such as 3, or a length, such as 15 mm", "'%s' is no width", text);
+    return scree_error_refuse(error, "--kernel", "mean diameters, such as 3, or a length, such as 15 mm",
+                              "'%s' is no width", text);
 }
 
 static scree_status read_axis(const char *text, scree_average_plan *plan, scree_error *error)
@@ -159,7 +149,8 @@ static scree_status read_axis(const char *text, scree_average_plan *plan, scree_
     if (strcmp(text, "apex") == 0) plan->axis = SCREE_AVERAGE_AXIS_APEX;
     if (plan->axis != SCREE_AVERAGE_AXIS_GIVEN) return SCREE_OK;
     if (!scree_units_parse(text, "m", &plan->axis_given, &problem)) return SCREE_OK;
-    return refuse(error, "axis", "mass, apex, or a position, such as 0 mm", "'%s' is no position of the axis", text);
+    return scree_error_refuse(error, "--axis", "mass, apex, or a position, such as 0 mm",
+                              "'%s' is no position of the axis", text);
 }
 
 /// What one unit of a file is in SI units: "1 mm", or "mm".
@@ -170,8 +161,9 @@ static scree_status read_unit(const char *text, const char *option, const char *
     *unit = 1;
     if (!text) return SCREE_OK;
     (void)snprintf(one, sizeof one, "%s%.60s", *text && strchr("0123456789.", *text) ? "" : "1 ", text);
-    if (scree_units_parse(one, si, unit, &why)) return refuse(error, option, why.accepted, "%s", why.message);
-    if (!(*unit > 0)) return refuse(error, option, "a unit", "'%s' is not above 0", text);
+    if (scree_units_parse(one, si, unit, &why))
+        return scree_error_refuse(error, option, why.accepted, "%s", why.message);
+    if (!(*unit > 0)) return scree_error_refuse(error, option, "a unit", "'%s' is not above 0", text);
     return SCREE_OK;
 }
 
@@ -194,16 +186,18 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
     plan->mean = strncmp(plan->at, mean, sizeof mean - 1) == 0;
     if (plan->mean) plan->at += sizeof mean - 1;
     if (plan->mean && plan->from)
-        return refuse(error, "from", "--at with one snapshot", "a mean over a stage has no displacements");
+        return scree_error_refuse(error, "--from", "--at with one snapshot",
+                                  "a mean over a stage has no displacements");
     plan->average.points = 41;
     if (options->points != 0 && (options->points < 1 || options->points > 10001 || options->points % 2 == 0))
-        return refuse(error, "points", "an odd number from 1 to 10001", "%ld places have no middle", options->points);
+        return scree_error_refuse(error, "--points", "an odd number from 1 to 10001", "%ld places have no middle",
+                                  options->points);
     if (options->points != 0) plan->average.points = (size_t)options->points;
     scree_status status = read_fields(options->fields ? options->fields : "density,coordination,stress,fabric",
                                       &plan->average.fields, error);
     if (!status && plan->average.fields & SCREE_AVERAGE_ELASTIC && !plan->from)
-        status = refuse(error, "fields", "elastic with --from: start, #N, or a stage",
-                        "elastic constants need two states of the run: say the earlier one");
+        status = scree_error_refuse(error, "--fields", "elastic with --from: start, #N, or a stage",
+                                    "elastic constants need two states of the run: say the earlier one");
     if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
     if (!status && options->element) status = read_element(options->element, plan, error);
     if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);

@@ -53,11 +53,8 @@ static scree_status refuse_stage(const scree_simulation *s, const char *name, sc
     for (int64_t k = 0; k < s->model.stage_count && count < sizeof names / sizeof *names; k++)
         names[count++] = s->model.stages[k].name;
     const char *nearest = scree_nearest(name, names, count);
-    scree_status status =
-        scree_error_set(error, SCREE_ERROR_INPUT, "the case has no stage '%s'%s%s%s", name,
-                        nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
-    if (error && nearest) (void)snprintf(error->accepted, sizeof error->accepted, "%s", nearest);
-    return status;
+    return scree_error_refuse(error, NULL, nearest, "the case has no stage '%s'%s%s%s", name,
+                              nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }
 
 /// The present stage has begun and is the one that is looked for.

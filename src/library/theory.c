@@ -35,14 +35,6 @@ scree_status theory_begin_figure(scree_theory *t, const char *name, size_t point
     return status;
 }
 
-scree_status theory_refuse(scree_error *error, const char *field, const char *accepted, const char *message)
-{
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
-    (void)snprintf(error->field, sizeof error->field, "%s", field);
-    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 void theory_add(scree_theory *t, const char *name, double value, const char *unit, const char *meaning)
 {
     assert(t->value_count < THEORY_VALUES);

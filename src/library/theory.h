@@ -42,9 +42,6 @@ scree_status theory_create(scree_theory **theory, scree_error *error);
 scree_status theory_begin_figure(scree_theory *theory, const char *name, size_t points, size_t curves,
                                  theory_figure **figure, scree_error *error);
 
-/// Fills an error of input: the member, what is accepted, and what is wrong.
-scree_status theory_refuse(scree_error *error, const char *field, const char *accepted, const char *message);
-
 /// A value that is NAN is left out.
 void theory_add(scree_theory *theory, const char *name, double value, const char *unit, const char *meaning);
 

@@ -32,9 +32,9 @@ static scree_status find_kind(const char *kind, scree_lattice *lattice, scree_er
             return SCREE_OK;
         }
     const char *nearest = kind ? scree_nearest(kind, names, SCREE_LATTICES + 1) : NULL;
-    return theory_refuse(error, "kind",
-                         nearest ? nearest : "row, square, hexagonal, simple_cubic, body_centred, face_centred",
-                         "there is no such lattice");
+    return scree_error_refuse(error, "kind",
+                              nearest ? nearest : "row, square, hexagonal, simple_cubic, body_centred, face_centred",
+                              "there is no such lattice");
 }
 
 static scree_status check(const scree_theory_lattice_of *of, scree_error *error)
@@ -48,16 +48,17 @@ static scree_status check(const scree_theory_lattice_of *of, scree_error *error)
                     {"normal_stiffness", of->normal_stiffness}};
     for (size_t k = 0; k < sizeof positive / sizeof *positive; k++)
         if (!(positive[k].value > 0 && isfinite(positive[k].value)))
-            return theory_refuse(error, positive[k].name, "a number above 0", "this has to be a finite number above 0");
+            return scree_error_refuse(error, positive[k].name, "a number above 0",
+                                      "this has to be a finite number above 0");
     if (!(of->stiffness_ratio >= 0 && isfinite(of->stiffness_ratio)))
-        return theory_refuse(error, "stiffness_ratio", "0 or more",
-                             "k_t over k_n has to be a finite number, 0 or more");
+        return scree_error_refuse(error, "stiffness_ratio", "0 or more",
+                                  "k_t over k_n has to be a finite number, 0 or more");
     if (!(of->young_modulus > 0))
-        return theory_refuse(error, "young_modulus", "above 0, infinite for rigid particles",
-                             "the Young's modulus of particles has to be above 0");
+        return scree_error_refuse(error, "young_modulus", "above 0, infinite for rigid particles",
+                                  "the Young's modulus of particles has to be above 0");
     if (!scree_elasticity_is_stable(1, of->poisson_ratio))
-        return theory_refuse(error, "poisson_ratio", "above -1 and below 0.5",
-                             "no particle of this Poisson's ratio resists every strain");
+        return scree_error_refuse(error, "poisson_ratio", "above -1 and below 0.5",
+                                  "no particle of this Poisson's ratio resists every strain");
     return SCREE_OK;
 }
 

@@ -24,17 +24,17 @@ static scree_status find_base(const char *base, scree_layer_base *found, scree_e
             return SCREE_OK;
         }
     const char *nearest = base ? scree_nearest(base, base_words, BASES) : NULL;
-    return theory_refuse(error, "base", nearest ? nearest : "smooth, bonded, none", "there is no such base");
+    return scree_error_refuse(error, "base", nearest ? nearest : "smooth, bonded, none", "there is no such base");
 }
 
 static scree_status check(const scree_theory_layer_of *of, scree_error *error)
 {
     if (!(of->force > 0 && isfinite(of->force)))
-        return theory_refuse(error, "force", "a number above 0", "the load has to be a finite number above 0");
+        return scree_error_refuse(error, "force", "a number above 0", "the load has to be a finite number above 0");
     if (!(of->thickness > 0 && isfinite(of->thickness)))
-        return theory_refuse(error, "thickness", "a number above 0", "this has to be a finite number above 0");
+        return scree_error_refuse(error, "thickness", "a number above 0", "this has to be a finite number above 0");
     if (!(of->poisson_ratio > -1 && of->poisson_ratio <= 0.5))
-        return theory_refuse(
+        return scree_error_refuse(
             error, "poisson_ratio", "above -1, at most 0.5",
             "no isotropic material has this Poisson's ratio (give that in space, and the plane apart)");
     return SCREE_OK;

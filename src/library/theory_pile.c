@@ -42,7 +42,8 @@ static scree_status find_kind(const char *kind, pile_kind *found, scree_error *e
             return SCREE_OK;
         }
     const char *nearest = kind ? scree_nearest(kind, kind_names, KINDS) : NULL;
-    return theory_refuse(error, "kind", nearest ? nearest : "ife, bcc, fpa, osl, wedge", "there is no such theory");
+    return scree_error_refuse(error, "kind", nearest ? nearest : "ife, bcc, fpa, osl, wedge",
+                              "there is no such theory");
 }
 
 static bool is_angle(double degrees)
@@ -58,18 +59,19 @@ static scree_status check(const scree_theory_pile_of *of, pile_kind kind, scree_
     } positive[] = {{"height", of->height}, {"density", of->density}, {"gravity", of->gravity}};
     for (size_t k = 0; k < sizeof positive / sizeof *positive; k++)
         if (!(positive[k].value > 0 && isfinite(positive[k].value)))
-            return theory_refuse(error, positive[k].name, "a number above 0", "this has to be a finite number above 0");
+            return scree_error_refuse(error, positive[k].name, "a number above 0",
+                                      "this has to be a finite number above 0");
     if (!is_angle(of->slope[0]) || !is_angle(of->slope[1]))
-        return theory_refuse(error, "slope", "above 0 and below 90 degrees",
-                             "no pile has such a slope: give the angle of repose");
+        return scree_error_refuse(error, "slope", "above 0 and below 90 degrees",
+                                  "no pile has such a slope: give the angle of repose");
     if (kind != WEDGE && of->slope[0] != of->slope[1])
-        return theory_refuse(error, "slope", "one angle",
-                             "two slopes are for the wedge alone: this theory is symmetric");
+        return scree_error_refuse(error, "slope", "one angle",
+                                  "two slopes are for the wedge alone: this theory is symmetric");
     if (!isnan(of->core) && !is_angle(of->core))
-        return theory_refuse(error, "core", "above 0 and below 90 degrees",
-                             "the boundary of the core lies between the vertical and the slope");
+        return scree_error_refuse(error, "core", "above 0 and below 90 degrees",
+                                  "the boundary of the core lies between the vertical and the slope");
     if (!isnan(of->axis) && !(fabs(of->axis) < 90))
-        return theory_refuse(error, "axis", "above -90 and below 90 degrees", "the ray runs down into the pile");
+        return scree_error_refuse(error, "axis", "above -90 and below 90 degrees", "the ray runs down into the pile");
     return SCREE_OK;
 }
 
@@ -84,15 +86,16 @@ static scree_status choose_relation(const scree_theory_pile_of *of, pile_kind ki
         return SCREE_OK;
     }
     if ((eta || mu) && (ratio || tau))
-        return theory_refuse(error, "eta", "eta, mu or both; or tau, or K with tau",
-                             "eta and mu say the same as K and tau: give one of these pairs");
+        return scree_error_refuse(error, "eta", "eta, mu or both; or tau, or K with tau",
+                                  "eta and mu say the same as K and tau: give one of these pairs");
     if (ratio && !tau)
-        return theory_refuse(error, "ratio", "K together with tau", "the angle tau is needed beside the ratio K");
+        return scree_error_refuse(error, "ratio", "K together with tau", "the angle tau is needed beside the ratio K");
     if (!eta && !mu && !tau)
-        return theory_refuse(error, "eta", "eta, mu or tau",
-                             "oriented stress linearity needs one number: which relation");
+        return scree_error_refuse(error, "eta", "eta, mu or tau",
+                                  "oriented stress linearity needs one number: which relation");
     if (ratio && !(of->ratio > 0))
-        return theory_refuse(error, "ratio", "above 0", "the equations have real characteristics for K above 0 alone");
+        return scree_error_refuse(error, "ratio", "above 0",
+                                  "the equations have real characteristics for K above 0 alone");
     if (tau) {
         const double angle = of->tau * DEGREE;
         *o = scree_oriented_of_axes(ratio ? (scree_oriented_axes){of->ratio, angle}
@@ -232,8 +235,8 @@ static scree_status solve_wedge(scree_theory *t, const scree_theory_pile_of *of,
     scree_status status =
         scree_wedge_of_core(&wanted, of->core * DEGREE, isnan(axis) ? 0 : axis, &found, &wedge, error);
     if (!status && !found)
-        status = theory_refuse(error, "core", "between the vertical and the slope",
-                               "there is no pile with this boundary of the core: take it farther from both");
+        status = scree_error_refuse(error, "core", "between the vertical and the slope",
+                                    "there is no pile with this boundary of the core: take it farther from both");
     if (status) return status;
     add_wedge(t, &wedge_rows[SCREE_WEDGES], of, &wedge);
     keep(all, wedge_rows[SCREE_WEDGES].column, wedge_rows[SCREE_WEDGES].label, &wedge.pile);

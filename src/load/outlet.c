@@ -145,8 +145,7 @@ static scree_status begin(const scree_context *c, scree_error *error)
                             c->work->wall_set->surface[k].config->name);
             int64_t load = 0;
             while (c->model->loads[load].own != (const void *)outlet) load++;
-            if (error) (void)snprintf(error->field, sizeof error->field, "loads.%lld.upper", (long long)load);
-            return SCREE_ERROR_INPUT;
+            return scree_error_key(error, SCREE_ERROR_INPUT, "loads.%lld.upper", (long long)load);
         }
     return SCREE_OK;
 }

@@ -40,8 +40,7 @@ static bool has_any(const scree_model *model)
 /// Where an error that has been set stands in the case.
 static scree_status refuse(int64_t load, scree_error *error, scree_status status)
 {
-    if (error) (void)snprintf(error->field, sizeof error->field, "loads.%lld", (long long)load);
-    return status;
+    return scree_error_key(error, status, "loads.%lld", (long long)load);
 }
 
 /// Two loads meet in a component of a body. held: the first one prescribes its motion; drives: the second one does.

@@ -191,9 +191,10 @@ static scree_status begin_gauge(const scree_context *c, const scree_gauge *g, in
     const double length = length_of(c, g);
     memory_of(c->state)->length[index] = length;
     if (length > 0) return SCREE_OK;
-    if (error) (void)snprintf(error->field, sizeof error->field, "measure.gauges.%lld", (long long)index);
-    return scree_error_set(error, SCREE_ERROR_INPUT, "gauge '%s' has no length: '%s' and '%s' are one above the other",
-                           g->name, g->between, g->and_other);
+    status =
+        scree_error_set(error, SCREE_ERROR_INPUT, "gauge '%s' has no length: '%s' and '%s' are one above the other",
+                        g->name, g->between, g->and_other);
+    return scree_error_key(error, status, "measure.gauges.%lld", (long long)index);
 }
 
 static scree_status begin(const scree_context *c, scree_error *error)

@@ -13,21 +13,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/// An input error at `field`; the caller adds value and accepted range when it knows them.
-#define FIELD_ERROR(error, path, ...) set_field(error, scree_error_set(error, SCREE_ERROR_INPUT, __VA_ARGS__), path)
-
-static scree_status set_field(scree_error *error, scree_status status, const char *path)
-{
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", path);
-    return status;
-}
-
 static scree_status indexed_error(scree_error *error, const char *list, int64_t index, const char *key,
                                   const char *text)
 {
     char path[64];
     (void)snprintf(path, sizeof path, "%s.%lld.%s", list, (long long)index, key);
-    return FIELD_ERROR(error, path, "%s", text);
+    return scree_error_refuse(error, path, NULL, "%s", text);
 }
 
 // ---- laws --------------------------------------------------------------------------------------------------------
@@ -71,8 +62,8 @@ static scree_status check_materials(const scree_model *model, scree_error *error
 {
     const scree_config *config = model->config;
     if (config->material_count < 1 || config->material_count > SCREE_MAX_MATERIALS)
-        return FIELD_ERROR(error, "materials", "a case has 1 to %d materials, this one has %lld", SCREE_MAX_MATERIALS,
-                           (long long)config->material_count);
+        return scree_error_refuse(error, "materials", NULL, "a case has 1 to %d materials, this one has %lld",
+                                  SCREE_MAX_MATERIALS, (long long)config->material_count);
     for (int i = 0; i < config->material_count; i++) {
         for (int j = 0; j < i; j++)
             if (strcmp(config->materials[i].name, config->materials[j].name) == 0)
@@ -226,7 +217,7 @@ static scree_status check_species(const scree_model *model, scree_error *error)
         if (particles->species_count > 0)
             return indexed_error(error, "particles.species", s, "material", "there is no such material in this case");
         scree_status status =
-            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", material);
+            scree_error_refuse(error, "particles.material", NULL, "there is no material '%s' in this case", material);
         for (int i = 0; error && i < config->material_count; i++) {
             size_t used = strlen(error->accepted);
             (void)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s", i ? ", " : "",
@@ -302,10 +293,10 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     for (int k = 0; k < scree_model_law_count(model); k++) {
         const scree_law *law = scree_law_get(model->laws[k].law);
         if (law->needs_slip_scale && !(model->reference_velocity > 0))
-            return FIELD_ERROR(error, "contact.reference_velocity",
-                               "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
-                               "give contact.reference_velocity",
-                               scree_modules[model->laws[k].law]->name);
+            return scree_error_refuse(error, "contact.reference_velocity", NULL,
+                                      "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
+                                      "give contact.reference_velocity",
+                                      scree_modules[model->laws[k].law]->name);
         if (law->resolve)
             law->resolve(scree_config_law_keys(&config->contact, k), model->reference_velocity, &model->laws[k]);
     }
@@ -363,15 +354,17 @@ static scree_status check_rounding(const scree_model *model, bool areas, scree_e
         if (!shape->rounding) continue;
         const double rounding = shape->rounding(scree_config_shape_keys(particles, s));
         if (areas && rounding > 0)
-            return FIELD_ERROR(error, "particles.rounding",
-                               "law %s takes the area that two outlines share, and knows sharp corners alone: leave "
-                               "rounding out, or take contact.law %s",
-                               law, others);
+            return scree_error_refuse(
+                error, "particles.rounding", NULL,
+                "law %s takes the area that two outlines share, and knows sharp corners alone: leave "
+                "rounding out, or take contact.law %s",
+                law, others);
         if (!areas && !(rounding > 0))
-            return FIELD_ERROR(error, "contact.law",
-                               "law %s has no meaning for polygons with sharp corners: give particles.rounding (0.1, "
-                               "say), or take one of the laws of areas: %s",
-                               law, others);
+            return scree_error_refuse(
+                error, "contact.law", NULL,
+                "law %s has no meaning for polygons with sharp corners: give particles.rounding (0.1, "
+                "say), or take one of the laws of areas: %s",
+                law, others);
     }
     return SCREE_OK;
 }
@@ -382,15 +375,16 @@ static scree_status resolve_geometry(scree_model *model, scree_error *error)
     const scree_geometry *chosen;
     for (int k = 1; k < scree_model_law_count(model); k++)
         if (scree_law_use_traits(&model->laws[k])->areas != areas)
-            return FIELD_ERROR(error, "contact.pairs", "laws of areas and others do not go together in one case");
+            return scree_error_refuse(error, "contact.pairs", NULL,
+                                      "laws of areas and others do not go together in one case");
     model->geometry = geometry_of(&model->config->particles, areas, &chosen);
     model->largest_gain = model->geometry >= 0 && chosen->traits->gains ? SCREE_LARGEST_GAIN : 1;
     if (model->geometry >= 0) return check_rounding(model, areas, error);
     char others[256];
     list_laws(!areas, others);
-    return FIELD_ERROR(error, "contact.law",
-                       "law %s has no meaning for particles of these shapes; those that may are: %s",
-                       scree_modules[model->laws[0].law]->name, others);
+    return scree_error_refuse(error, "contact.law", NULL,
+                              "law %s has no meaning for particles of these shapes; those that may are: %s",
+                              scree_modules[model->laws[0].law]->name, others);
 }
 
 /// What geometries with gains do not know: laws that stick, bonds, bodies whose surfaces move, friction that asks for
@@ -401,17 +395,21 @@ static scree_status check_gains(const scree_model *model, scree_error *error)
     for (int64_t i = 0; i < model->config->stage_count; i++) {
         const scree_model of_stage = scree_model_of_stage(model, &model->config->stages[i]);
         if (scree_modules[model->config->stages[i].kind]->numbers->bonds)
-            return FIELD_ERROR(error, "stages", "bonds hold discs and spheres together: rounded polygons have none");
+            return scree_error_refuse(error, "stages", NULL,
+                                      "bonds hold discs and spheres together: rounded polygons have none");
         if (scree_model_predicts(&of_stage))
-            return FIELD_ERROR(error, "contact.friction_update", "rounded polygons know the explicit update only");
+            return scree_error_refuse(error, "contact.friction_update", NULL,
+                                      "rounded polygons know the explicit update only");
     }
     for (int k = 0; k < scree_model_law_count(model); k++) {
         const scree_law_traits *traits = scree_law_use_traits(&model->laws[k]);
         if (traits->deforms)
-            return FIELD_ERROR(error, "particles.rounding", "polygons are rigid: particles that deform are discs");
+            return scree_error_refuse(error, "particles.rounding", NULL,
+                                      "polygons are rigid: particles that deform are discs");
         const char *name = scree_modules[model->laws[k].law]->name;
         if (traits->pulls || traits->necks)
-            return FIELD_ERROR(error, "contact.law", "law %s sticks: rounded polygons need one that only pushes", name);
+            return scree_error_refuse(error, "contact.law", NULL,
+                                      "law %s sticks: rounded polygons need one that only pushes", name);
     }
     return SCREE_OK;
 }
@@ -517,17 +515,17 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     const bool warns = model->config->guard.stability == SCREE_STABILITY_WARNS;
     if (warns || ticks * model->step <= model->critical_step) return SCREE_OK;
     if (model->largest_step > 1)
-        return FIELD_ERROR(
-            error, "integrator.step",
+        return scree_error_refuse(
+            error, "integrator.step", NULL,
             "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
             "be unstable; give %.2g s, or auto, or guard.stability: warn to see",
             ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
-    scree_status status =
-        FIELD_ERROR(error, "integrator.step",
-                    "a step of %.3g s is above the critical step of this case, %.3g s%s, and may be unstable; "
-                    "give %.2g s, or auto%s, or guard.stability: warn to see",
-                    model->step, model->critical_step, for_cohesion(model),
-                    two_digits_below(0.5 * model->critical_step), scree_critical_step_advice(model, (char[96]){0}));
+    scree_status status = scree_error_refuse(
+        error, "integrator.step", NULL,
+        "a step of %.3g s is above the critical step of this case, %.3g s%s, and may be unstable; "
+        "give %.2g s, or auto%s, or guard.stability: warn to see",
+        model->step, model->critical_step, for_cohesion(model), two_digits_below(0.5 * model->critical_step),
+        scree_critical_step_advice(model, (char[96]){0}));
     if (error) {
         (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);
         (void)snprintf(error->accepted, sizeof error->accepted, "up to %.3g s", two_digits_below(model->critical_step));

@@ -63,12 +63,9 @@ static scree_status refuse_sizes(const scree_model *model, int index, const scre
                                  scree_error *error)
 {
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", problem->text);
-    if (!error) return status;
-    if (model->config->particles.species_count > 0)
-        (void)snprintf(error->field, sizeof error->field, "particles.species.%d.%s", index, problem->key);
-    else
-        (void)snprintf(error->field, sizeof error->field, "particles.%s", problem->key);
-    return status;
+    return model->config->particles.species_count > 0
+               ? scree_error_key(error, status, "particles.species.%d.%s", index, problem->key)
+               : scree_error_key(error, status, "particles.%s", problem->key);
 }
 
 scree_status scree_model_resolve_species(scree_model *model, scree_error *error)

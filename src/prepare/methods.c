@@ -12,10 +12,9 @@ scree_status scree_prepare_error(scree_error *error, const scree_model *model, c
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
-    if (!error) return status;
-    for (int64_t i = 0; i < model->stage_count; i++)
-        if (stage == &model->stages[i])
-            (void)snprintf(error->field, sizeof error->field, "stages.%lld.%s", (long long)i, key);
-    return status;
+    const scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
+    int64_t number = 0;
+    while (number < model->stage_count && stage != &model->stages[number]) number++;
+    return number < model->stage_count ? scree_error_key(error, status, "stages.%lld.%s", (long long)number, key)
+                                       : status;
 }

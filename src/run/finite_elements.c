@@ -105,11 +105,10 @@ static scree_status resolve(scree_model *model, scree_error *error)
     if (isnan(own->young)) n->said.young = scree_compliance_modulus(condition, by);
     if (isnan(own->poisson)) n->said.poisson = scree_compliance_ratio(condition, by);
     if (isfinite(n->said.young) && !isnan(n->said.poisson)) return SCREE_OK;
-    (void)scree_error_set(error, SCREE_ERROR_INPUT,
-                          "the particles are rigid: say fem_young_modulus and fem_poisson_ratio, or let them deform "
-                          "(contact.deformation)");
-    if (error) (void)snprintf(error->field, sizeof error->field, "measure.finite_elements");
-    return SCREE_ERROR_INPUT;
+    return scree_error_refuse(
+        error, "measure.finite_elements", NULL,
+        "the particles are rigid: say fem_young_modulus and fem_poisson_ratio, or let them deform "
+        "(contact.deformation)");
 }
 
 // ---- results -----------------------------------------------------------------------------------------------------

@@ -119,9 +119,7 @@ static const numbers *numbers_of(const scree_model *model)
 
 static scree_status refuse(scree_error *error, const char *format, uint32_t one, uint32_t other)
 {
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, format, one, other);
-    if (error) (void)snprintf(error->field, sizeof error->field, "measure.response_load");
-    return status;
+    return scree_error_refuse(error, "measure.response_load", NULL, format, one, other);
 }
 
 /// The row of the one grain that the load presses on.

@@ -98,8 +98,7 @@ static scree_status check_source(const scree_simulation *s, int64_t index, scree
                                 "radius %.4g m; move the source or the wall",
                                 source->name, clearance < 0 ? "behind" : "in", wall_set->surface[k].config->name, at[0],
                                 at[1], at[2], fabs(clearance), radius);
-            if (error) (void)snprintf(error->field, sizeof error->field, "sources.%lld", (long long)index);
-            return status;
+            return scree_error_key(error, status, "sources.%lld", (long long)index);
         }
     return SCREE_OK;
 }

@@ -65,9 +65,8 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
                             "from it; move the wall, or change the box of the prepare stage (it begins at the origin)",
                             state->id[row], place[0], place[1], place[2], radius, clearance < 0 ? "behind" : "in",
                             wall->name, fabs(clearance));
-            if (!error) return SCREE_ERROR_INPUT;
-            (void)snprintf(error->field, sizeof error->field, "walls.%td", wall - s->c->config.walls);
-            scree_case_locate(s->c, error);
+            scree_error_key(error, SCREE_ERROR_INPUT, "walls.%td", wall - s->c->config.walls);
+            if (error) scree_case_locate(s->c, error);
             return SCREE_ERROR_INPUT;
         }
     }

@@ -200,9 +200,8 @@ static void shorten(const scree_state *state, double way[3])
 
 static scree_status refuse(scree_error *error, int64_t index, const char *name, const char *why)
 {
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "receiver '%s' %s", name, why);
-    if (error) (void)snprintf(error->field, sizeof error->field, "measure.receivers.%lld.place", (long long)index);
-    return status;
+    const scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "receiver '%s' %s", name, why);
+    return scree_error_key(error, status, "measure.receivers.%lld.place", (long long)index);
 }
 
 static scree_status find_receiver(const scree_context *c, const numbers *own, int64_t index, scree_error *error)
@@ -267,10 +266,9 @@ static scree_status find_layers(const scree_context *c, const numbers *own, scre
     for (size_t row = 0; row < state->count; row++) filled[layer_of(m, own, m->reference[row])] = 1;
     for (int64_t k = 0; k < own->layers && !status; k++)
         if (!filled[k])
-            status = scree_error_set(error, SCREE_ERROR_INPUT,
-                                     "layer %lld of %lld, around %g m, has no particle: take fewer", (long long)k,
-                                     (long long)own->layers, m->first + (double)k * m->spacing);
-    if (status == SCREE_ERROR_INPUT && error) (void)snprintf(error->field, sizeof error->field, "measure.wave_layers");
+            status = scree_error_refuse(error, "measure.wave_layers", NULL,
+                                        "layer %lld of %lld, around %g m, has no particle: take fewer", (long long)k,
+                                        (long long)own->layers, m->first + (double)k * m->spacing);
     scree_release(&filled);
     return status;
 }

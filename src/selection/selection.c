@@ -17,8 +17,7 @@ static scree_status refuse(const scree_model *model, int64_t index, const char *
     const scree_config_selection *selection = &model->selections[index];
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "selection '%s' (%s) %s", selection->name,
                                           scree_modules[selection->kind]->name, why);
-    if (error) (void)snprintf(error->field, sizeof error->field, "selections.%lld", (long long)index);
-    return status;
+    return scree_error_key(error, status, "selections.%lld", (long long)index);
 }
 
 /// It has no particle: where those of the sample are.

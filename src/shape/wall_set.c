@@ -82,7 +82,7 @@ scree_status scree_wall_set_create(const scree_config *config, scree_wall_set **
         if (!status && c->primitives >= SCREE_PRIMITIVES)
             status = scree_error_set(error, SCREE_ERROR_INPUT, "the walls of a case have at most %u elements",
                                      SCREE_PRIMITIVES);
-        if (status && error) (void)snprintf(error->field, sizeof error->field, "walls.%d.file", k);
+        status = scree_error_key(error, status, "walls.%d.file", k);
     }
     scree_wall_set_place(c, NULL, 0, 0);
     scree_wall_set_list(c);

@@ -50,34 +50,21 @@ typedef struct search {
 
 // ---- what it is about --------------------------------------------------------------------------------------------
 
-static scree_status refuse(scree_error *error, const char *field, const char *accepted, const char *format, ...)
-    SCREE_PRINTF(4, 5);
-static scree_status refuse(scree_error *error, const char *field, const char *accepted, const char *format, ...)
-{
-    char text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", field);
-    if (error && accepted) (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 static scree_status check_key(const scree_case *c, const scree_bisection *what, double ends[2], scree_error *error)
 {
     scree_target target;
     if (!scree_path_follow(scree_case_root(c), what->key, NULL, (scree_place){.source = NULL}, &target))
-        return refuse(error, "key", NULL, "%s", target.reason);
+        return scree_error_refuse(error, "key", NULL, "%s", target.reason);
     if (target.element || (!target.component && target.key->type != SCREE_KEY_NUMBER))
-        return refuse(error, "key", NULL, "'%s' is no number: only between numbers there is a middle", what->key);
+        return scree_error_refuse(error, "key", NULL, "'%s' is no number: only between numbers there is a middle",
+                                  what->key);
     for (int k = 0; k < 2; k++) {
         scree_error problem = {0};
         if (!scree_units_parse(what->between[k], target.key->unit, &ends[k], &problem)) continue;
-        return refuse(error, "between", target.key->unit, "'%s': %s", what->between[k], problem.message);
+        return scree_error_refuse(error, "between", target.key->unit, "'%s': %s", what->between[k], problem.message);
     }
-    if (ends[0] == ends[1]) return refuse(error, "between", NULL, "there is nothing between a value and itself");
+    if (ends[0] == ends[1])
+        return scree_error_refuse(error, "between", NULL, "there is nothing between a value and itself");
     return SCREE_OK;
 }
 
@@ -85,19 +72,19 @@ scree_status scree_bisection_check(const scree_case *c, const scree_bisection *w
 {
     const scree_result *row = scree_result_name_find(what->measure, NULL);
     if (!row || !row->unit)
-        return refuse(error, "measure", scree_result_name_nearest(what->measure), "no run has a number '%s'",
-                      what->measure);
+        return scree_error_refuse(error, "measure", scree_result_name_nearest(what->measure),
+                                  "no run has a number '%s'", what->measure);
     const bool bounds = !isnan(what->below) || !isnan(what->above);
     if (!bounds && isnan(what->target))
-        return refuse(error, "below", "below, above, or target",
-                      "say below what, or above what, '%s' has to be, or what", what->measure);
+        return scree_error_refuse(error, "below", "below, above, or target",
+                                  "say below what, or above what, '%s' has to be, or what", what->measure);
     if (bounds && !isnan(what->target))
-        return refuse(error, "target", "bounds, or a target", "a target goes without bounds");
+        return scree_error_refuse(error, "target", "bounds, or a target", "a target goes without bounds");
     if (!(what->tolerance > 0 && what->tolerance < 1))
-        return refuse(error, "tolerance", "above 0, below 1", "%g is no tolerance", what->tolerance);
+        return scree_error_refuse(error, "tolerance", "above 0, below 1", "%g is no tolerance", what->tolerance);
     const char *nearest = NULL;
     if (what->curve && what->curve[0] && !scree_column_is_known(what->curve, &nearest))
-        return refuse(error, "curve", nearest, "series.csv has no column '%s'", what->curve);
+        return scree_error_refuse(error, "curve", nearest, "series.csv has no column '%s'", what->curve);
     return check_key(c, what, ends, error);
 }
 

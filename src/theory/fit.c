@@ -36,13 +36,6 @@ const char *scree_fit_theory_name(size_t number)
     return scree_fit_theories[k].name;
 }
 
-static scree_status refuse(scree_error *error, const char *field, const char *message)
-{
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", field);
-    return status;
-}
-
 scree_status scree_fit_begin(const char *theory, scree_fit *fit, scree_error *error)
 {
     *fit = (scree_fit){0};
@@ -53,7 +46,7 @@ scree_status scree_fit_begin(const char *theory, scree_fit *fit, scree_error *er
         while (fit->parameters < SCREE_FIT_PARAMETERS && fit->parameter[fit->parameters].name) fit->parameters++;
         return SCREE_OK;
     }
-    return refuse(error, "theory", "there is no such theory to fit");
+    return scree_error_refuse(error, "theory", NULL, "there is no such theory to fit");
 }
 
 const scree_fit_parameter *scree_fit_find(const scree_fit *fit, const char *name)
@@ -71,7 +64,7 @@ scree_status scree_fit_set(scree_fit *fit, const char *name, double value, bool 
         fit->parameter[k].free = free;
         return SCREE_OK;
     }
-    return refuse(error, name, "this theory has no such parameter");
+    return scree_error_refuse(error, name, NULL, "this theory has no such parameter");
 }
 
 scree_status scree_fit_stress(const scree_fit *fit, size_t count, const scree_fit_point *points,
@@ -141,8 +134,8 @@ static scree_status find_errors(const search *s, const gsl_matrix *derivatives, 
     bool apart = gsl_linalg_cholesky_decomp1(&result.matrix) == GSL_SUCCESS;
     for (size_t i = 0; i < n && apart; i++) apart = inverse[i * n + i] * inverse[i * n + i] > ALIKE;
     if (!apart)
-        return refuse(
-            error, s->fit->theory->name,
+        return scree_error_refuse(
+            error, s->fit->theory->name, NULL,
             "these points cannot tell the free parameters apart: hold one of them, or add components or depths");
     (void)gsl_linalg_cholesky_invert(&result.matrix);
     for (size_t i = 0, a = 0; i < s->fit->parameters; i++) {
@@ -221,10 +214,10 @@ scree_status scree_fit_solve(scree_fit *fit, size_t count, const scree_fit_point
         fit->free += fit->parameter[k].free;
         fit->parameter[k].error = 0;
     }
-    scree_status status =
-        fit->values > 0 && fit->values >= fit->free
-            ? scree_allocate(&s.stress, count, sizeof *s.stress, error)
-            : refuse(error, "points", "there are fewer measured values with an error than parameters");
+    scree_status status = fit->values > 0 && fit->values >= fit->free
+                              ? scree_allocate(&s.stress, count, sizeof *s.stress, error)
+                              : scree_error_refuse(error, "points", NULL,
+                                                   "there are fewer measured values with an error than parameters");
     // A beginning without a solution has its own message.
     if (!status) status = scree_fit_stress(fit, count, points, s.stress, error);
     if (!status && fit->free > 0) status = search_free(&s, error);

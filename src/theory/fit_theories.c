@@ -17,10 +17,7 @@ typedef enum pile_kind { IFE, BCC, FPA, OSL, ORIENTED } pile_kind;
 
 static scree_status no_solution(const char *field, scree_error *error)
 {
-    scree_status status =
-        scree_error_set(error, SCREE_ERROR_INPUT, "this theory has no solution with these parameters: begin elsewhere");
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", field);
-    return status;
+    return scree_error_refuse(error, field, NULL, "this theory has no solution with these parameters: begin elsewhere");
 }
 
 static void look_up(const scree_ideal_pile *pile, const scree_fit_parameter *p, size_t count,

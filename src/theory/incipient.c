@@ -61,12 +61,8 @@ static bool is_too_much(const incipient *of, double on_axis)
 
 static scree_status refuse(scree_error *error)
 {
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT,
-                                          "the pile at the limit of failure was not found: take a smaller angle");
-    if (!error) return status;
-    (void)snprintf(error->field, sizeof error->field, "slope");
-    (void)snprintf(error->accepted, sizeof error->accepted, "up to 86 degrees");
-    return status;
+    return scree_error_refuse(error, "slope", "up to 86 degrees",
+                              "the pile at the limit of failure was not found: take a smaller angle");
 }
 
 static scree_status fill_series(const incipient *of, double on_axis, scree_ideal_pile *p, scree_error *error)

@@ -72,32 +72,27 @@ void scree_oriented_characteristics(scree_oriented o, double *outward, double *i
 
 // ---- the pile ----------------------------------------------------------------------------------------------------
 
-static scree_status refuse(scree_error *error, const char *accepted, const char *message)
-{
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
-    if (!error) return status;
-    (void)snprintf(error->field, sizeof error->field, "eta");
-    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 static scree_status check(double slope, scree_oriented o, scree_error *error)
 {
     const double c = 1 / tan(slope);
     if (!isfinite(o.eta) || !isfinite(o.mu))
-        return refuse(error, "K tan^2(tau) that is not 1", "this relation does not contain sigma_xx");
+        return scree_error_refuse(error, "eta", "K tan^2(tau) that is not 1",
+                                  "this relation does not contain sigma_xx");
     if (!(o.mu * o.mu + 4 * o.eta > 0))
-        return refuse(error, "mu^2 + 4 eta above 0, which is K above 0",
-                      "the equations of this relation have no real characteristics, so the surface does not rule the "
-                      "stress inside: take a larger eta");
+        return scree_error_refuse(
+            error, "eta", "mu^2 + 4 eta above 0, which is K above 0",
+            "the equations of this relation have no real characteristics, so the surface does not rule the "
+            "stress inside: take a larger eta");
     if (!(o.eta > 0))
-        return refuse(error, "above 0",
-                      "both characteristics run to the same side of the pile, so its two slopes cannot carry it: take "
-                      "eta above 0");
+        return scree_error_refuse(
+            error, "eta", "above 0",
+            "both characteristics run to the same side of the pile, so its two slopes cannot carry it: take "
+            "eta above 0");
     if (!(c * c - o.mu * c - o.eta > 0))
-        return refuse(error, "mu below (cot^2(phi) - eta) / cot(phi)",
-                      "the outward characteristic is flatter than the slope, so no stress vanishes there: take a "
-                      "smaller eta or mu, or a smaller phi");
+        return scree_error_refuse(
+            error, "eta", "mu below (cot^2(phi) - eta) / cot(phi)",
+            "the outward characteristic is flatter than the slope, so no stress vanishes there: take a "
+            "smaller eta or mu, or a smaller phi");
     return SCREE_OK;
 }
 

@@ -189,24 +189,15 @@ static void make_pile(const sides *w, const core *c, scree_wedge *wedge)
     wedge->jump = jump_of(w, c);
 }
 
-static scree_status refuse(scree_error *error, const char *field, const char *accepted, const char *message)
-{
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
-    if (!error) return status;
-    (void)snprintf(error->field, sizeof error->field, "%s", field);
-    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 static scree_status begin(const scree_wedge_of *of, sides *w, scree_error *error)
 {
     for (int side = 0; side < 2; side++) {
         const double slope = of->slope[side];
         if (!(slope > 0 && slope < M_PI_2))
-            return refuse(error, "slope", "above 0 and below 90 degrees", "a pile has no such slope");
+            return scree_error_refuse(error, "slope", "above 0 and below 90 degrees", "a pile has no such slope");
         if (of->friction != 0 && !(of->friction >= slope && of->friction < M_PI_2))
-            return refuse(error, "friction", "from the larger slope to 90 degrees",
-                          "a slope above the angle of internal friction does not stand");
+            return scree_error_refuse(error, "friction", "from the larger slope to 90 degrees",
+                                      "a slope above the angle of internal friction does not stand");
         const double friction = of->friction > 0 ? of->friction : slope;
         w->plastic[side] = scree_pile_plastic(slope, friction, of->passive);
         w->end[side] = (side ? 1 : -1) / tan(slope);

@@ -121,13 +121,9 @@ static scree_status refuse_unknown(const scree_plot_run *run, const name_list *l
             if (error) *error = run->series_status ? run->series_error : run->snapshot_error;
             return run->series_status ? run->series_status : run->snapshot_status;
         }
-        scree_status status =
-            scree_error_set(error, SCREE_ERROR_INPUT, "the run in '%s' has no figure of this name", run->directory);
         const char *nearest = scree_nearest(name, list->name, list->count);
-        if (!error) return status;
-        (void)snprintf(error->field, sizeof error->field, "%s", name);
-        (void)snprintf(error->accepted, sizeof error->accepted, "%s", nearest ? nearest : "scree plot DIR --list");
-        return status;
+        return scree_error_refuse(error, name, nearest ? nearest : "scree plot DIR --list",
+                                  "the run in '%s' has no figure of this name", run->directory);
     }
     return SCREE_OK;
 }

@@ -42,15 +42,6 @@ static bool next_name(const char **at, char *name, size_t size)
     return true;
 }
 
-scree_status scree_plot_refuse(scree_error *error, const char *option, const char *accepted, const char *message,
-                               const char *name)
-{
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, message, name);
-    if (error) (void)snprintf(error->field, sizeof error->field, "%s", option);
-    if (error) (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 // ---- columns -----------------------------------------------------------------------------------------------------
 
 /// Whether all words of `name`, parted by '_', are in `column`.
@@ -88,7 +79,7 @@ static scree_status find_column(const asked_chart *chart, const char *option, co
         if (strcmp(series->name[*column], name) == 0) return SCREE_OK;
     char list[sizeof error->accepted];
     list_alike(series, name, list, sizeof list);
-    return scree_plot_refuse(error, option, list, "series.csv has no column '%s'", name);
+    return scree_error_refuse(error, option, list, "series.csv has no column '%s'", name);
 }
 
 static scree_status find_columns(asked_chart *chart, scree_error *error)
@@ -97,14 +88,14 @@ static scree_status find_columns(asked_chart *chart, scree_error *error)
     const char *at = chart->columns->y;
     scree_status status = find_column(chart, "--x", chart->columns->x ? chart->columns->x : "time", &chart->x, error);
     while (!status && next_name(&at, name, sizeof name)) {
-        if (chart->lines == LINES) return scree_plot_refuse(error, "--y", "at most 12", "too many columns%s", "");
+        if (chart->lines == LINES) return scree_error_refuse(error, "--y", "at most 12", "too many columns");
         status = find_column(chart, "--y", name, &chart->y[chart->lines], error);
         if (status) break;
         char **unit = chart->run.series.unit;
         const char *first = unit[chart->y[0]], *now = unit[chart->y[chart->lines++]];
         if (strcmp(first, now) != 0)
-            status = scree_plot_refuse(error, "--y", first, "one chart has one unit, and this column has another: '%s'",
-                                       name);
+            status = scree_error_refuse(error, "--y", first,
+                                        "one chart has one unit, and this column has another: '%s'", name);
     }
     return status;
 }
@@ -131,7 +122,7 @@ static scree_status refuse_stage(const asked_chart *chart, const char *name, scr
     for (int64_t k = 0; chart->c && k < chart->c->config.stage_count && used < sizeof list; k++)
         if (chart->c->config.stages[k].name)
             used += (size_t)snprintf(list + used, sizeof list - used, ", %s", chart->c->config.stages[k].name);
-    return scree_plot_refuse(error, "--stage", list, "series.csv has no row of a stage '%s'", name);
+    return scree_error_refuse(error, "--stage", list, "series.csv has no row of a stage '%s'", name);
 }
 
 /// Marks the rows of the stages that were asked for; of each there has to be one.
@@ -235,7 +226,7 @@ static scree_status name_files(const asked_chart *chart, char *name, scree_error
     if (used < NAME_SIZE && chart->columns->stage)
         used += (size_t)snprintf(name + used, NAME_SIZE - used, "-%s", chart->columns->stage);
     if (used >= NAME_SIZE)
-        return scree_plot_refuse(error, "--y", "fewer columns", "the name of the figure becomes too long%s", "");
+        return scree_error_refuse(error, "--y", "fewer columns", "the name of the figure becomes too long");
     for (char *c = name; *c; c++)
         if (!isalnum((unsigned char)*c) && *c != '_') *c = '-';
     return SCREE_OK;

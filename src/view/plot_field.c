@@ -132,8 +132,8 @@ static scree_status find_field(const scree_asked_scene *asked, int dimension, co
     size_t used = 0;
     for (size_t k = 0; k < count && used < sizeof list; k++)
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "", known[k]);
-    return scree_plot_refuse(error, asked->frame ? "--movie" : "--scene", nearest ? nearest : list,
-                             "scenes of this run have no field '%s'", name);
+    return scree_error_refuse(error, asked->frame ? "--movie" : "--scene", nearest ? nearest : list,
+                              "scenes of this run have no field '%s'", name);
 }
 
 // ---- which snapshot ----------------------------------------------------------------------------------------------
@@ -158,8 +158,8 @@ static scree_status read_snapshots(scree_asked_scene *asked, scree_error *error)
     scree_status status = scree_snapshot_read(asked->run.directory, asked->which, &asked->now, error);
     if (!status) status = find_field(asked, asked->now.dimension, &asked->row, error);
     if (!status && asked->scene->section && (asked->now.dimension == 2 || !asked->row->values))
-        status = scree_plot_refuse(error, "--section", "a run of spheres and a field of bodies",
-                                   asked->now.dimension == 2 ? "discs cannot be cut%s" : "a cut has no contacts%s", "");
+        status = scree_error_refuse(error, "--section", "a run of spheres and a field of bodies",
+                                    asked->now.dimension == 2 ? "discs cannot be cut" : "a cut has no contacts");
     // What is compared with a later start is compared with the first snapshot.
     asked->start_at = find_start(asked->mark, asked->run.snapshot_count);
     if (asked->which < asked->start_at) asked->start_at = 0;

@@ -34,10 +34,6 @@ typedef struct scree_plot_run {
 scree_status scree_plot_run_open(scree_plot_run *run, const char *directory, scree_error *error) SCREE_MUST_USE;
 void scree_plot_run_close(scree_plot_run *run);
 
-/// `field` is the option at fault, `message` has one "%s" for the name.
-scree_status scree_plot_refuse(scree_error *error, const char *option, const char *accepted, const char *message,
-                               const char *name);
-
 /// Tells `message`, which may be NULL, a warning of a missing font.
 void scree_plot_warn(void (*message)(void *user, const char *line), void *user);
 

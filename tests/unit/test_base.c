@@ -104,6 +104,24 @@ static void memory_is_aligned_counted_and_can_fail(void **unused)
     assert_int_equal(after, before);
 }
 
+static void refusals_have_a_key_and_what_is_accepted(void **unused)
+{
+    (void)unused;
+    scree_error error;
+    char text[200];
+    assert_int_equal(scree_error_refuse(&error, "--at", "end, #N", "'%s' is no time", "now"), SCREE_ERROR_INPUT);
+    scree_error_format(&error, text, sizeof text);
+    assert_string_equal(text, "--at: 'now' is no time (accepted: end, #N)");
+    assert_int_equal(scree_error_refuse(&error, NULL, NULL, "no"), SCREE_ERROR_INPUT);
+    scree_error_format(&error, text, sizeof text);
+    assert_string_equal(text, "no");
+    assert_int_equal(scree_error_key(&error, SCREE_ERROR_INPUT, "walls.%d", 3), SCREE_ERROR_INPUT);
+    assert_string_equal(error.field, "walls.3");
+    assert_int_equal(scree_error_key(&error, SCREE_OK, "walls.%d", 4), SCREE_OK);
+    assert_string_equal(error.field, "walls.3");
+    assert_int_equal(scree_error_refuse(NULL, "--at", "end", "no"), SCREE_ERROR_INPUT);
+}
+
 static void error_text_has_position_field_and_range(void **unused)
 {
     (void)unused;
@@ -127,6 +145,7 @@ int main(void)
         cmocka_unit_test(fixed_sum_is_free_of_order),
         cmocka_unit_test(fixed_quantum_of_nothing),
         cmocka_unit_test(memory_is_aligned_counted_and_can_fail),
+        cmocka_unit_test(refusals_have_a_key_and_what_is_accepted),
         cmocka_unit_test(error_text_has_position_field_and_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

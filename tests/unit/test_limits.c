@@ -235,6 +235,21 @@ static void bad_gauges_are_refused(void **unused)
     }
 }
 
+/// Both selections lie at one height: known once the sample is there, and said with the key of the gauge.
+static void a_gauge_without_length_is_refused(void **unused)
+{
+    (void)unused;
+    static const char *const along[] = {"measure.gauges.width.along=y"};
+    scree_simulation s;
+    scree_case *c;
+    scree_error error = {0};
+    run_block(along, 1, &s, &c, &error);
+    assert_int_equal(error.status, SCREE_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "gauge 'width' has no length"));
+    assert_string_equal(error.field, "measure.gauges.1");
+    block_close(&s, c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -242,6 +257,7 @@ int main(void)
         cmocka_unit_test(a_refused_run_is_refused_again),
         cmocka_unit_test(bonds_that_go_ask_for_a_check),
         cmocka_unit_test(looking_changes_nothing),
+        cmocka_unit_test(a_gauge_without_length_is_refused),
         cmocka_unit_test(lengths_are_those_between_centres),
         cmocka_unit_test(elastic_test_has_the_closed_form),
         cmocka_unit_test(bad_gauges_are_refused),
