@@ -25,7 +25,9 @@
 /// round-off, which has no such energy to be measured by, has its own part of the scale. Positions are known to
 /// d = ROUNDING units in the last place of the largest coordinate L, hence
 ///     a contact force f or a weight m g    to an energy    f d, m g d     (quanta of forces are finer: base/fixed.h),
+///     a body that moves by d in a step     to              m (d / step)^2 / 2, slower than which it stands for long,
 ///     two bodies that should just touch    to              (2/5) K sqrt(R) d^(5/2), which may be felt after they part,
+///     ... one a plate that moves by w      to              K sqrt(R) d^(3/2) w, if they part within a step,
 ///     the sum of N terms m g . x           to              N / 2 units in the last place of the sum of |m g . x|.
 /// The sums of kinetic and elastic energy have errors of the same kind, but against themselves, which are in the scale.
 #include "measure/measure.h"
@@ -33,6 +35,7 @@
 #include "base/integer_sum.h"
 #include "comm/comm.h"
 #include "integrate/integrate.h"
+#include "state/plates.h"
 #include "state/sleep.h"
 
 #include <float.h>
@@ -167,14 +170,27 @@ static double spring_energy(const scree_elastic *elastic, const scree_pair_const
     return elastic->energy(pair, radius, overlap);
 }
 
+/// The farthest that a plate moves in a step [m].
+static double way_of_plates(const scree_state *state)
+{
+    double speed = 0;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        const scree_wall *plate = &scree_plates(state)[w];
+        if (plate->active) speed = fmax(speed, fabs(plate->velocity) + scree_length(plate->tangential_velocity));
+    }
+    return speed * state->tick;
+}
+
 /// Energy to which round-off lets the balance be known: the head of this file.
 static double energy_of_rounding(const scree_model *model, const scree_state *state, const double body[BODY_SUMS],
                                  double largest, double contact_force)
 {
-    double distance = ROUNDING * DBL_EPSILON * largest;
+    const double distance = ROUNDING * DBL_EPSILON * largest, speed = state->tick > 0 ? distance / state->tick : 0;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    return distance * (contact_force + weight) +
-           bodies * scree_model_mean_of(model, spring_energy, model->mean_radius, distance) +
+    // The force over the energy of a spring is between 2 / d and 2.5 / d.
+    const double parting = distance > 0 ? 1 + 2.5 * way_of_plates(state) / distance : 1;
+    return distance * (contact_force + weight) + 0.5 * body[MASS] * speed * speed +
+           bodies * scree_model_mean_of(model, spring_energy, model->mean_radius, distance) * parting +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 

@@ -69,6 +69,9 @@ END
 expect 0 '^' "$scree" run bonded.yaml --quiet -o b
 within 'energy balance' 0 1e-6 "$("$scree" get b energy_residual)"
 within 'pressure' 1e6 3e6 "$(column b p 2 | tail -1)"
+# Plates that go away leave a sample at rest, whose balance is round-off.
+sed 's/rate: {xx: -0.2 1.s, yy: -0.2 1/rate: {xx: 100 1\/s, yy: 100 1/; s/time: 0.1 ms/time: 20 us/' bonded.yaml >away.yaml
+expect 0 '^' "$scree" run away.yaml --quiet -o away
 for keep in 'volume' 'lateral_strain'; do
     sed "s/strain_rate: {.*}, time/strain_rate: {yy: -0.2 1\/s}, keep: $keep, time/" bonded.yaml >kept.yaml
     expect 0 'press' "$scree" check kept.yaml
