@@ -159,6 +159,7 @@ void scree_parts_count_step(const scree_state *state, scree_work *work)
 {
     scree_parts *parts = work->parts;
     parts->taken++;
+    parts->taken_bodies += state->count;
     parts->taken_ghosts += work->ghosts.away;
     parts->needed += parts->sent_count * scree_message_bytes(state, SCREE_MESSAGE_STEP) +
                      work->ghosts.away * scree_message_bytes(state, SCREE_MESSAGE_BACK);

@@ -17,6 +17,11 @@ static bool is_joined(const scree_state *state)
     return size > 1 && (!state || state->part);
 }
 
+bool scree_comm_has_transport(void)
+{
+    return true;
+}
+
 scree_status scree_comm_join(scree_error *error)
 {
     int given;

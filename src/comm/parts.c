@@ -85,8 +85,6 @@ static bool out_of_balance(const scree_state *state, scree_parts *parts)
     double largest = (double)state->count;
     scree_comm_maximum(state, &largest, 1);
     const double mean = (double)state->total / scree_comm_size();
-    parts->looks += mean > 0;
-    parts->imbalance += mean > 0 ? largest / mean : 0;
     parts->worst = mean > 0 ? fmax(parts->worst, largest / mean) : parts->worst;
     // One or two bodies more or less are not worth a cut.
     return largest > SCREE_PARTS_IMBALANCE * mean + 2;

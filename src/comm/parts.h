@@ -32,10 +32,10 @@ typedef struct scree_parts {
     uint64_t steps, bytes;      ///< messages of steps: how often, and what this process sent
     uint64_t ghosts;            ///< from other processes, sum over the lists
     uint64_t taken;             ///< steps
+    uint64_t taken_bodies;      ///< of this part, sum over the steps
     uint64_t taken_ghosts;      ///< from other processes, sum over the steps
     uint64_t needed;            ///< bytes that the fields of ghosts need in the steps, sent by this process
-    uint64_t looks;             ///< at the balance, when a list is due
-    double imbalance, worst;    ///< bodies of the fullest part over their mean: sum over the looks, largest
+    double worst;               ///< bodies of the fullest part over their mean, largest when a list was due
 } scree_parts;
 
 /// Bodies of the fullest part over their mean from which on space is cut anew when a list is made.

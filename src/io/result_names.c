@@ -31,7 +31,7 @@ const scree_result scree_run_results[] = {
     // what several processes did, since the last start
     {"processes", "1", "processes that computed together, where there were several"},
     {"processes_ghosts", "1", "bodies of others that a process has near its own, mean of the steps"},
-    {"processes_imbalance", "1", "bodies of the fullest part over their mean, mean of the neighbour lists"},
+    {"processes_imbalance", "1", "bodies of the fullest part over the mean of the parts, in the mean of the steps"},
     {"processes_messages", "1", "messages of all processes in a step, those that make lists included"},
     {"processes_bytes", "1", "bytes of these messages"},
     {"processes_bytes_ratio", "1", "bytes of messages and reductions over what declared fields of ghosts need"},

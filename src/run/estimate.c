@@ -41,6 +41,8 @@ static const expense expenses[2] = {
 #define PROGRAM_BYTES  28e6  /* the libraries that a run needs */
 #define SNAPSHOT_BYTES 0.1e6 /* a snapshot while run.h5 is gathered, */
 #define GATHER_BYTES   1e6   /* and the most of all of them beside those of their bodies */
+#define MPI_BYTES      0e6   /* its libraries and buffers */
+#define GATHERED_BYTES 0.0   /* a body, copies of an array of all while it is gathered */
 #define FIGURE_BYTES   12e6  /* of all figures, and of each scene */
 #define SCENE_BYTES    0.5e6
 /// s: a contact with a wall that only space has (curved, or a mesh), which the probe does without; bodies that have
@@ -165,8 +167,10 @@ void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_
         scree_stage_cost stage = scree_stage_expect(model, k, probe->collision);
         cost->steps += stage.steps;
         cost->output += stage.samples * (probe->sample * scale + ROW) + stage.snapshots * snapshot;
+        cost->lists += stage.samples * probe->rebuild * scale;
     }
-    cost->stepping = cost->steps * step_time(model, probe, scale) + probe->preparation * scale;
+    cost->preparation = probe->preparation * scale;
+    cost->stepping = cost->steps * step_time(model, probe, scale) + cost->preparation;
     cost->rate = count / step_time(model, probe, scale);
     double scenes = scenes_of(model, &charts);
     cost->figures = charts * CHART + scenes * (SCENE + SCENE_BODY * count);
@@ -184,4 +188,11 @@ double scree_memory_expect(const scree_model *model)
     for (int64_t k = 0; k < model->stage_count; k++) snapshots += scree_stage_expect(model, k, NAN).snapshots;
     double figures = model->output.figures ? FIGURE_BYTES + SCENE_BYTES * scenes : 0;
     return PROGRAM_BYTES + fmin(snapshots * SNAPSHOT_BYTES, GATHER_BYTES) + figures + body * (double)model->count;
+}
+
+double scree_rank_memory_expect(const scree_model *model, double ghosts, bool writes)
+{
+    const expense *e = &expenses[model->dimension == 3];
+    const double alone = writes ? scree_memory_expect(model) : PROGRAM_BYTES + e->step_bytes * (double)model->count;
+    return alone + MPI_BYTES + GATHERED_BYTES * (double)model->count + e->step_bytes * ghosts;
 }

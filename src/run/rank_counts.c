@@ -9,7 +9,7 @@
 
 #define NANOSECOND 1e-9
 
-enum { TAKEN_GHOSTS, NEEDED, STEPPING, FIRST_TRAFFIC };
+enum { TAKEN_BODIES, TAKEN_GHOSTS, NEEDED, STEPPING, FIRST_TRAFFIC };
 enum { MESSAGES, BYTES, CALLS, TIME, EACH };
 enum { NUMBERS = FIRST_TRAFFIC + EACH * SCREE_TRAFFIC_PURPOSES };
 
@@ -21,6 +21,7 @@ static int place_of(scree_traffic_purpose purpose, int what)
 /// The own counts, as integers that can be added.
 static void take_own(const scree_parts *parts, double stepping, int64_t own[NUMBERS])
 {
+    own[TAKEN_BODIES] = (int64_t)parts->taken_bodies;
     own[TAKEN_GHOSTS] = (int64_t)parts->taken_ghosts;
     own[NEEDED] = (int64_t)parts->needed;
     own[STEPPING] = (int64_t)(stepping / NANOSECOND);
@@ -57,8 +58,8 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     }
     counts->reductions = (double)sum[place_of(SCREE_TRAFFIC_REDUCTIONS, CALLS)] * each;
     counts->reduced = (double)sum[place_of(SCREE_TRAFFIC_REDUCTIONS, BYTES)] * each;
-    counts->imbalance = parts->looks > 0 ? parts->imbalance / (double)parts->looks : NAN;
-    counts->worst = parts->worst;
+    counts->imbalance = most[TAKEN_BODIES] * processes / fmax(1, (double)sum[TAKEN_BODIES]);
+    counts->worst = fmax(parts->worst, counts->imbalance);
     counts->gathers = (double)parts->gathers;
     counts->gathered = (double)sum[place_of(SCREE_TRAFFIC_GATHERS, BYTES)] / processes;
     counts->stepping = NANOSECOND * (double)sum[STEPPING] / processes;
@@ -87,7 +88,7 @@ void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
     scree_log_write(
         log, SCREE_LOG_INFO,
         "a process: %.1f bodies of others near its own (at most %.1f), %.2f reductions a step of %.0f bytes "
-        "in all; the fullest part has %.3f times the mean of the bodies, at most %.3f; %.3g MB sent for "
+        "in all; the fullest part has %.3f times the mean of the bodies, at a list at most %.3f; %.3g MB sent for "
         "whole states (%.0f of them)",
         counts->ghosts[0], counts->ghosts[1], counts->reductions, counts->reduced, counts->imbalance, counts->worst,
         1e-6 * counts->gathered, counts->gathers);
