@@ -28,7 +28,7 @@ typedef struct layer {
     double surface, edge; ///< a, b
     double bytes;         ///< a ghost and step: what it follows in, and gives back
 } layer;
-static const layer layers[2] = {{1, 0, 72}, {1, 0, 128}};
+static const layer layers[2] = {{2.65, 0.446, 72}, {5.6, 3.62, 128}};
 
 static double ghosts_of(int dimension, double bodies, double all)
 {
