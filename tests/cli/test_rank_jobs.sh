@@ -49,8 +49,9 @@ cp shear.yaml run/case.yaml
 expect 2 'not asked of the folder of a run' "$scree" check run --ranks 2
 
 # --- members of several processes
+expect 2 'ranks: does not go with --dry-run' "$scree" sweep few.yaml --ranks 2 --dry-run
 if ! ldd "$scree" | grep -q libmpi; then
-    for what in '--slurm no.sh' '--member 0' '' '--dry-run'; do
+    for what in '--slurm no.sh' '--member 0' ''; do
         # shellcheck disable=SC2086
         expect 2 'members cannot have several processes: this program is built without MPI' "$scree" sweep few.yaml -o no --ranks 2 $what
     done
