@@ -76,10 +76,33 @@ typedef struct scree_case_summary {
     double rate;                   ///< particle-steps per second of the stepping, measured on this machine
     double memory;                 ///< bytes, peak
     double tabor;                  ///< largest Tabor parameter of contacts of mean grains; NAN where none sticks
+    double preparation;            ///< s, of the stepping
+    double lists;                  ///< s, beside it of several processes: pairs of the whole sample, at each sample
 } scree_case_summary;
 /// Takes some tenths of a second: the case is set going for a moment. Times that cannot be found so are NAN. Errors:
 /// SCREE_ERROR_INPUT, memory.
 SCREE_API scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error);
+
+/// What one of several processes takes that compute a run together (`scree check --ranks`).
+typedef struct scree_case_rank {
+    double bodies, ghosts;        ///< its own, and those of others near them that it is told of, mean
+    double sent;                  ///< bytes a step, mean; lists and whole states not counted
+    double memory[2];             ///< bytes, peak: of process 0, which writes and draws; of another one
+    double seconds;               ///< of process 0 on a core of its own: the sum of the next four, without messages
+    double preparation, stepping; ///< s: of the whole sample; of its part
+    double lists, output;         ///< s: pairs of the whole, at each sample; samples, files and figures
+} scree_case_rank;
+
+enum { SCREE_MOST_PROCESSES = 4096 }; ///< that can compute a run together
+
+/// Whether the case can be spread over several processes. Errors: SCREE_ERROR_INPUT: what cannot, by name; memory.
+SCREE_API scree_status scree_case_can_spread(const scree_case *c, scree_error *error);
+
+/// `summary`: that of the case; `processes`: from 1. Of surface to volume: ghosts as of a packing in a periodic cell
+/// (docs/performance.md). Errors: SCREE_ERROR_INPUT: something in the case cannot be spread over processes, or no such
+/// number of them; memory.
+SCREE_API scree_status scree_case_divide(const scree_case *c, const scree_case_summary *summary, int processes,
+                                         scree_case_rank *rank, scree_error *error);
 
 /// Calls `visit` with a sentence for each stage that means to be quasistatic and will not be: what, its limit, and what
 /// to change. A run writes the same into its log.

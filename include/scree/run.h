@@ -46,6 +46,9 @@ SCREE_API scree_status scree_restart(const char *directory, const scree_run_opti
 
 // ---- several processes (mpirun), of a library that is built with MPI ----------------------------------------------
 
+/// Whether processes can compute together: the library is built with MPI.
+SCREE_API bool scree_processes_can_join(void);
+
 /// This process takes part with the others that its launcher has started: scree_run and scree_restart are called by all
 /// of them, alike, and compute one run, with the bits of one process; process 0 writes it. Called once, before anything
 /// else. *count: processes that take part, 1 in a library without MPI. Errors: SCREE_ERROR_IO, MPI does not start.

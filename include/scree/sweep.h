@@ -46,7 +46,8 @@ typedef struct scree_sweep_options {
     const char *program;      ///< that runs a member: `PROGRAM run CASE -o DIR`
     const char *output;       ///< sweep directory
     int jobs;                 ///< members at the same time; 0: as many as there are cores for their threads
-    int threads;              ///< of each member; 0: one
+    int threads;              ///< of each process of a member; 0: one
+    int ranks;                ///< processes of each member, which `mpirun` of PATH starts; 0: one, without it
     bool retry;               ///< run members anew that failed
     bool force;               ///< run members anew whose directory holds another case
     bool figures;             ///< of the members, and comparison figures of the sweep
@@ -74,7 +75,7 @@ SCREE_API scree_status scree_sweep_estimate_cost(const scree_sweep *sweep, bool 
 /// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. The processes are
 /// asked to stop when the thread that called this ends. Errors:
 /// SCREE_ERROR_GUARD when members failed (the others are there), SCREE_ERROR_INPUT (another case in a directory; a
-/// program that the sweep needs is not installed),
+/// program that the sweep needs is not installed; members cannot have several processes),
 /// SCREE_ERROR_IO, SCREE_INTERRUPTED.
 SCREE_API scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options,
                                        scree_error *error);
@@ -88,7 +89,7 @@ SCREE_API scree_status scree_sweep_collect(const scree_sweep *sweep, const scree
                                            scree_error *error);
 
 /// Writes a SLURM script: a job array with a task for each member. `name` and the read options are what `sweep` was
-/// read from. Errors: SCREE_ERROR_IO.
+/// read from. Errors: SCREE_ERROR_IO; SCREE_ERROR_INPUT: members cannot have several processes.
 SCREE_API scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep_read_options *read,
                                                const scree_sweep_options *options, const char *path,
                                                scree_error *error);

@@ -40,7 +40,8 @@ class CaseSummaryStruct(Structure):
                 ("largest_step", c_uint64), ("phi", c_double), ("psi", c_double), ("inertial_number", c_double),
                 ("mean_radius", c_double), ("thickness", c_double), ("reference_velocity", c_double),
                 ("steps", c_double), ("seconds", c_double), ("stepping", c_double), ("output", c_double),
-                ("figures", c_double), ("rate", c_double), ("memory", c_double), ("tabor", c_double)]
+                ("figures", c_double), ("rate", c_double), ("memory", c_double), ("tabor", c_double),
+                ("preparation", c_double), ("lists", c_double)]
 
 
 class ContactPoint(Structure):
@@ -93,8 +94,8 @@ class SweepReadOptions(Structure):
 
 
 class SweepOptions(Structure):
-    _fields_ = [("program", c_char_p), ("output", c_char_p), ("jobs", c_int), ("threads", c_int), ("retry", c_bool),
-                ("force", c_bool), ("figures", c_bool), ("stop", POINTER(c_int)), ("progress", PROGRESS),
+    _fields_ = [("program", c_char_p), ("output", c_char_p), ("jobs", c_int), ("threads", c_int), ("ranks", c_int),
+                ("retry", c_bool), ("force", c_bool), ("figures", c_bool), ("stop", POINTER(c_int)), ("progress", PROGRESS),
                 ("message", MESSAGE), ("user", c_void_p)]
 
 

@@ -78,18 +78,23 @@ scree_status scree_program_run(const scree_program *program, scree_program_end *
     return SCREE_OK;
 }
 
-bool scree_program_is_there(const char *name)
+bool scree_program_find(const char *name, char *path, size_t room)
 {
     const char *folders = getenv("PATH");
-    char path[PATH_MAX];
     struct stat about;
     while (folders && *folders) {
         const size_t length = strcspn(folders, ":");
-        const int size = snprintf(path, sizeof path, "%.*s/%s", (int)length, folders, name);
-        if (length > 0 && size < (int)sizeof path && access(path, X_OK) == 0 && stat(path, &about) == 0 &&
+        const int size = snprintf(path, room, "%.*s/%s", (int)length, folders, name);
+        if (length > 0 && size < (int)room && access(path, X_OK) == 0 && stat(path, &about) == 0 &&
             S_ISREG(about.st_mode))
             return true;
         folders += length + (folders[length] == ':');
     }
     return false;
+}
+
+bool scree_program_is_there(const char *name)
+{
+    char path[PATH_MAX];
+    return scree_program_find(name, path, sizeof path);
 }

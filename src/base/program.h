@@ -24,6 +24,9 @@ typedef struct scree_program_end {
 /// be started, which may be a folder that is not there.
 scree_status scree_program_run(const scree_program *program, scree_program_end *end, scree_error *error) SCREE_MUST_USE;
 
+/// The first program of this name in PATH, as a path; false: there is none.
+bool scree_program_find(const char *name, char *path, size_t room);
+
 /// Whether PATH has a program of this name.
 bool scree_program_is_there(const char *name);
 

@@ -79,6 +79,31 @@ static void print_summary(const scree_case_summary *summary)
     print_quantity("memory", summary->memory, "B");
 }
 
+/// Of one of several processes.
+static void print_rank(const scree_case_rank *rank, long processes)
+{
+    char text[TEXT], more[4 * TEXT], part[TEXT];
+    (void)snprintf(text, sizeof text, "%ld", processes);
+    (void)snprintf(more, sizeof more, "mpirun -n %ld; of one of them, in the mean:", processes);
+    print_line("processes", text, more);
+    (void)snprintf(text, sizeof text, "%.4g", rank->bodies);
+    (void)snprintf(more, sizeof more, "and about %.3g of others near them", rank->ghosts);
+    print_line("  particles", text, more);
+    scree_human_quantity(text, sizeof text, rank->sent, "B");
+    print_line("  sends", text, "a step, without what lists and whole samples take");
+    print_duration("  time needed", rank->seconds, "with a core of its own, without messages");
+    if (!isnan(rank->seconds)) {
+        print_duration("    preparation", rank->preparation, "each prepares the whole sample");
+        print_duration("    stepping", rank->stepping, "its part");
+        print_duration("    lists", rank->lists, "of the whole sample, which each has at every sample");
+        print_duration("    output", rank->output, "samples, files, figures: process 0, the others wait");
+    }
+    scree_human_quantity(text, sizeof text, rank->memory[1], "B");
+    scree_human_quantity(part, sizeof part, rank->memory[0], "B");
+    (void)snprintf(more, sizeof more, "process 0, which writes, %s: arrays of the whole sample in each", part);
+    print_line("  memory", text, more);
+}
+
 static void print_warning(void *user, const char *line)
 {
     (void)user;
@@ -115,8 +140,8 @@ static void print_limits(scree_limits_known known, const scree_stability *s)
     print_line("k_n / E", text, more);
 }
 
-/// What only shows when the first stage begins: grains behind walls, a source or an outlet within one. Large samples are
-/// left to the run, which stops as early.
+/// What only shows when the first stage begins: grains behind walls, a source or an outlet within one. Large samples
+/// are left to the run, which stops as early.
 static scree_status try_begin(const scree_case *c, const scree_case_summary *summary, scree_error *error)
 {
     enum { MOST = 20000 };
@@ -165,9 +190,18 @@ static scree_status check_folder(const char *folder)
     return status ? scree_terminal_error("check", &error) : SCREE_OK;
 }
 
-scree_status scree_verb_check(const scree_command *command)
+/// Says what one of the processes takes, if the call asks for several.
+static scree_status divide(const scree_case *c, const scree_case_summary *summary, long processes, scree_error *error)
 {
-    if (scree_argument_is_run(command->argument[0])) return check_folder(command->argument[0]);
+    scree_case_rank rank;
+    if (processes == 0) return SCREE_OK;
+    scree_status status = scree_case_divide(c, summary, (int)processes, &rank, error);
+    if (!status) print_rank(&rank, processes);
+    return status;
+}
+
+static scree_status check_case(const scree_command *command, long processes)
+{
     scree_case *c;
     scree_status status = scree_case_argument_read(command, command->argument[0], &c);
     if (status) return status;
@@ -179,12 +213,25 @@ scree_status scree_verb_check(const scree_command *command)
     if (!status) status = scree_case_write(c, stdout, &error);
     if (!status) {
         print_summary(&summary);
-        status = scree_case_warn(c, print_warning, NULL, &error);
+        status = divide(c, &summary, processes, &error);
     }
+    if (!status) status = scree_case_warn(c, print_warning, NULL, &error);
     if (!status && !(status = scree_case_limits(c, &known, &limits, &error)) && known != SCREE_LIMITS_NONE)
         print_limits(known, &limits);
     if (!status && known != SCREE_LIMITS_EXACT) status = try_begin(c, &summary, &error);
     if (status) status = scree_terminal_error("check", &error);
     scree_case_free(c);
     return status;
+}
+
+scree_status scree_verb_check(const scree_command *command)
+{
+    scree_error error = {0};
+    long processes = 0;
+    scree_status status = scree_command_number(command, "ranks", 1, SCREE_MOST_PROCESSES, &processes, &error);
+    if (!status && processes > 0 && scree_argument_is_run(command->argument[0]))
+        status = scree_command_refuse(&error, "--ranks", "a case", "is not asked of the folder of a run");
+    if (status) return scree_terminal_error("check", &error);
+    if (scree_argument_is_run(command->argument[0])) return check_folder(command->argument[0]);
+    return check_case(command, processes);
 }

@@ -17,6 +17,10 @@ static scree_status check_combination(const scree_command *command, scree_error 
         if (first) return scree_command_refuse(error, ways[i], "", "does not go with --%s", first);
         first = ways[i];
     }
+    if (scree_command_has(command, "dry-run") && scree_command_has(command, "ranks"))
+        return scree_command_refuse(error, "ranks", "",
+                                    "does not go with --dry-run, which tells the cost of one process; `scree check "
+                                    "CASE --ranks N` tells that of several");
     return SCREE_OK;
 }
 

@@ -26,7 +26,7 @@ static void show(void *user, const scree_sweep_progress *progress)
 scree_status scree_sweep_command_open(const scree_command *command, scree_sweep_command *sweep)
 {
     scree_error error = {0};
-    long jobs = 0, threads = 0, realisations = 0;
+    long jobs = 0, threads = 0, ranks = 0, realisations = 0;
     *sweep = (scree_sweep_command){0};
     ssize_t length = readlink("/proc/self/exe", sweep->program, sizeof sweep->program - 1);
     if (length <= 0) {
@@ -36,6 +36,7 @@ scree_status scree_sweep_command_open(const scree_command *command, scree_sweep_
     sweep->program[length] = 0;
     scree_status status = scree_command_number(command, "jobs", 1, MOST_JOBS, &jobs, &error);
     if (!status) status = scree_command_number(command, "threads", 1, MOST_THREADS, &threads, &error);
+    if (!status) status = scree_command_number(command, "ranks", 1, SCREE_MOST_PROCESSES, &ranks, &error);
     if (!status) status = scree_command_number(command, "realisations", 1, MOST_REALISATIONS, &realisations, &error);
     if (status) return scree_terminal_error(command->verb->name, &error);
     sweep->overrides = calloc(command->option_count + 1, sizeof *sweep->overrides);
@@ -52,6 +53,7 @@ scree_status scree_sweep_command_open(const scree_command *command, scree_sweep_
                                            .output = output ? output : "out",
                                            .jobs = (int)jobs,
                                            .threads = (int)threads,
+                                           .ranks = (int)ranks,
                                            .retry = scree_command_has(command, "retry"),
                                            .force = scree_command_has(command, "force"),
                                            .figures = !scree_command_has(command, "no-figures"),

@@ -72,6 +72,13 @@ const scree_verb_option scree_common_options[] = {
     {                                                                                                                  \
         .name = "threads", .letter = 't', .value = "N", .meaning = "threads of each member", .preset = "1"             \
     }
+#define OPTION_MEMBER_RANKS                                                                                            \
+    {                                                                                                                  \
+        .name = "ranks", .value = "N",                                                                                 \
+        .meaning = "processes of each member, each with its threads, started by `mpirun`; needs a program that is "    \
+                   "built with MPI",                                                                                   \
+        .preset = "1"                                                                                                  \
+    }
 #define OPTION_RETRY                                                                                                   \
     {                                                                                                                  \
         .name = "retry", .meaning = "run failed members again"                                                         \
@@ -122,6 +129,8 @@ static const scree_verb case_verbs[] = {
             "time (processor time of one thread: stepping, output, figures) and peak memory, for which the case is set "
             "going for a moment. Of bonds and of particles that deform also the limits of their specimen, if it stands "
             "before the first step, for which the sample is prepared. The output is a case file again.\n\n"
+            "`--ranks` adds what one of N processes takes (`mpirun -n N scree run`): its particles and those of others "
+            "near them, time, memory, what it sends; a case that cannot be spread over processes is refused.\n\n"
             "Everything that is wrong with a case is reported at once, as `file:line:column: key: what is wrong "
             "(accepted: what would be right)`.\n\n"
             "Given the folder of a run, says of each file in it, and of each checkpoint and snapshot, whether it is "
@@ -129,8 +138,11 @@ static const scree_verb case_verbs[] = {
             "when something is damaged.",
         .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
                       false, false}},
-        .option = {OPTION_SET, OPTION_QUICK},
+        .option = {OPTION_SET,
+                   OPTION_QUICK,
+                   {.name = "ranks", .value = "N", .meaning = "also time and memory of one of N processes"}},
         .example = {{"scree check my.yaml", "before a long run"},
+                    {"scree check big.yaml --ranks 64", "before one on several machines"},
                     {"scree check biaxial --set stages.compress.rate=1e-3", "how much slower, and how quasistatic"},
                     {"scree check out", "what is whole in a folder, and from where it can go on"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
@@ -313,7 +325,7 @@ static const scree_verb run_verbs[] = {
             "does not keep the others from being run; the exit status is then 3. The first interrupt stops all members "
             "after a checkpoint.\n\n"
             "`--slurm` writes a script for a job array in place of running anything: its tasks call `--member`, and "
-            "`--collect` comes after them.",
+            "`--collect` comes after them. With `--ranks` each task has so many processes.",
         .argument = {{"SWEEP", "a sweep file, or the name of a built-in sweep", SCREE_VALUE_SWEEP, false, false}},
         .option = {{.name = "output",
                     .letter = 'o',
@@ -326,6 +338,7 @@ static const scree_verb run_verbs[] = {
                    OPTION_REALISATIONS,
                    OPTION_JOBS,
                    OPTION_MEMBER_THREADS,
+                   OPTION_MEMBER_RANKS,
                    OPTION_RETRY,
                    OPTION_FORCE_MEMBERS,
                    OPTION_NO_FIGURES,

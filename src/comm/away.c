@@ -3,6 +3,7 @@
 #include "comm/parts.h"
 
 #include "comm/comm.h"
+#include "comm/traffic.h"
 
 #include <math.h>
 #include <string.h>
@@ -128,7 +129,10 @@ void scree_parts_send(scree_state *state, scree_work *work, scree_message_kind k
     size_t at = 0, row = state->count + work->ghosts.count - work->ghosts.away;
     for (int r = 0; r < scree_comm_size(); at += parts->send[r++])
         scree_message_pack(state, kind, parts->sent + at, parts->send[r], shift, parts->out + at * bytes);
+    const scree_traffic_purpose before =
+        scree_traffic_for(kind == SCREE_MESSAGE_STEP ? SCREE_TRAFFIC_STEPS : SCREE_TRAFFIC_LISTS);
     parts->bytes += scree_comm_deliver(parts->out, parts->send, parts->in, parts->receive, bytes);
+    (void)scree_traffic_for(before);
     at = 0;
     for (int r = 0; r < scree_comm_size(); at += parts->receive[r++])
         scree_message_unpack(state, kind, row + at, parts->receive[r], parts->in + at * bytes);
@@ -142,9 +146,21 @@ void scree_parts_add_back(scree_state *state, scree_work *work)
     size_t at = 0, row = state->count + work->ghosts.count - work->ghosts.away;
     for (int r = 0; r < scree_comm_size(); at += parts->receive[r++])
         scree_message_collect(state, row + at, parts->receive[r], parts->out + at * bytes);
+    const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_STEPS);
     parts->bytes += scree_comm_deliver(parts->out, parts->receive, parts->in, parts->send, bytes);
+    (void)scree_traffic_for(before);
     at = 0;
     for (int r = 0; r < scree_comm_size(); at += parts->send[r++])
         scree_message_add(state, parts->sent + at, parts->send[r], parts->in + at * bytes);
     parts->steps++;
+}
+
+void scree_parts_count_step(const scree_state *state, scree_work *work)
+{
+    scree_parts *parts = work->parts;
+    parts->taken++;
+    parts->taken_bodies += state->count;
+    parts->taken_ghosts += work->ghosts.away;
+    parts->needed += parts->sent_count * scree_message_bytes(state, SCREE_MESSAGE_STEP) +
+                     work->ghosts.away * scree_message_bytes(state, SCREE_MESSAGE_BACK);
 }

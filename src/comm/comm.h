@@ -27,6 +27,9 @@ void scree_comm_add_back(scree_state *state, scree_work *work);
 
 // ---- the processes that take part -------------------------------------------------------------------------------
 
+/// Whether the program is built with MPI.
+bool scree_comm_has_transport(void);
+
 /// This process takes part with the others that its launcher has started, if the program is built with MPI; all of
 /// them call it, once, before anything else here. Without it a process is alone. Errors: the launcher has none of MPI.
 scree_status scree_comm_join(scree_error *error) SCREE_MUST_USE;

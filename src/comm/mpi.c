@@ -6,6 +6,7 @@
 /// integers in the order of the doubles, with NaN as the largest: MPI leaves open what MPI_MAX makes of it.
 #include "comm/comm.h"
 #include "comm/mpi_own.h"
+#include "comm/traffic.h"
 
 static MPI_Comm together = MPI_COMM_NULL;
 static int size = 1, rank, here = 1;
@@ -14,6 +15,11 @@ static int size = 1, rank, here = 1;
 static bool is_joined(const scree_state *state)
 {
     return size > 1 && (!state || state->part);
+}
+
+bool scree_comm_has_transport(void)
+{
+    return true;
 }
 
 scree_status scree_comm_join(scree_error *error)
@@ -83,9 +89,17 @@ void scree_comm_stop(scree_status status)
 
 enum { BLOCK = 32, LIMBS = 3 };
 
+/// All reductions of numbers: `count` of 8 bytes each.
+static void reduce(void *values, size_t count, MPI_Datatype type, MPI_Op operation)
+{
+    const double began = MPI_Wtime();
+    (void)MPI_Allreduce(MPI_IN_PLACE, values, (int)count, type, operation, together);
+    scree_traffic_count_reduction(8 * count, MPI_Wtime() - began);
+}
+
 static void add_all(uint64_t *values, size_t count)
 {
-    (void)MPI_Allreduce(MPI_IN_PLACE, values, (int)count, MPI_UINT64_T, MPI_SUM, together);
+    reduce(values, count, MPI_UINT64_T, MPI_SUM);
 }
 
 static void split(scree_wide_integer value, uint64_t limb[LIMBS])
@@ -126,7 +140,7 @@ void scree_comm_maximum(const scree_state *state, double *values, size_t count)
         int64_t order[BLOCK];
         const size_t many = count - begin < BLOCK ? count - begin : BLOCK;
         for (size_t k = 0; k < many; k++) order[k] = order_of(values[begin + k]);
-        (void)MPI_Allreduce(MPI_IN_PLACE, order, (int)many, MPI_INT64_T, MPI_MAX, together);
+        reduce(order, many, MPI_INT64_T, MPI_MAX);
         for (size_t k = 0; k < many; k++) values[begin + k] = of_order(order[k]);
     }
 }
@@ -201,7 +215,10 @@ void scree_comm_wide_total(const scree_state *state, const scree_wide_sum *part,
 
 void scree_comm_trade(const uint64_t *mine, uint64_t *theirs, size_t each)
 {
+    const double began = MPI_Wtime();
+    const size_t others = (size_t)(size - 1);
     (void)MPI_Alltoall(mine, (int)each, MPI_UINT64_T, theirs, (int)each, MPI_UINT64_T, together);
+    scree_traffic_count(others, others * each * sizeof *mine, MPI_Wtime() - began);
 }
 
 /// Elements of so many bytes, so that counts stay within the integers of MPI.
@@ -219,17 +236,20 @@ size_t scree_comm_deliver(const void *out, const size_t *send, void *in, const s
     MPI_Datatype type = element(bytes);
     const unsigned char *from = out;
     unsigned char *to = in;
-    size_t sent = 0;
+    size_t sent = 0, messages = 0;
     int count = 0;
+    const double began = MPI_Wtime();
     for (int r = 0; r < size; to += receive[r++] * bytes)
         if (r != rank && receive[r] > 0) (void)MPI_Irecv(to, (int)receive[r], type, r, 0, together, &request[count++]);
     for (int r = 0; r < size; from += send[r++] * bytes) {
         if (r == rank || send[r] == 0) continue;
         (void)MPI_Isend(from, (int)send[r], type, r, 0, together, &request[count++]);
         sent += send[r] * bytes;
+        messages++;
     }
     (void)MPI_Waitall(count, request, MPI_STATUSES_IGNORE);
     (void)MPI_Type_free(&type);
+    scree_traffic_count(messages, sent, MPI_Wtime() - began);
     return sent;
 }
 
@@ -237,10 +257,13 @@ void scree_comm_gather(const void *mine, void *all, const size_t *counts, size_t
 {
     int number[SCREE_PROCESSES], begin[SCREE_PROCESSES], sum = 0;
     MPI_Datatype type = element(bytes);
+    const double began = MPI_Wtime();
+    const size_t others = (size_t)(size - 1);
     for (int r = 0; r < size; r++) {
         begin[r] = sum;
         sum += number[r] = (int)counts[r];
     }
     (void)MPI_Allgatherv(mine, number[rank], type, all, number, begin, type, together);
     (void)MPI_Type_free(&type);
+    scree_traffic_count(others, others * counts[rank] * bytes, MPI_Wtime() - began);
 }

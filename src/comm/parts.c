@@ -10,6 +10,7 @@
 
 #include "base/checksum.h"
 #include "comm/comm.h"
+#include "comm/traffic.h"
 #include "state/periodic.h"
 #include "state/store.h"
 
@@ -79,11 +80,12 @@ static scree_status cut(const scree_state *state, scree_parts *parts, size_t beg
     return status;
 }
 
-static bool out_of_balance(const scree_state *state)
+static bool out_of_balance(const scree_state *state, scree_parts *parts)
 {
     double largest = (double)state->count;
     scree_comm_maximum(state, &largest, 1);
     const double mean = (double)state->total / scree_comm_size();
+    parts->worst = mean > 0 ? fmax(parts->worst, largest / mean) : parts->worst;
     // One or two bodies more or less are not worth a cut.
     return largest > SCREE_PARTS_IMBALANCE * mean + 2;
 }
@@ -349,7 +351,7 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
     scree_parts *parts = work->parts;
     int32_t *to = NULL;
     scree_status status = SCREE_OK;
-    if (out_of_balance(state)) status = cut(state, parts, 0, state->count, error);
+    if (out_of_balance(state, parts)) status = cut(state, parts, 0, state->count, error);
     if (!status) status = scree_allocate(&to, scree_row_count(state, work) + 1, sizeof *to, error);
     if (status) return status;
     choose(state, parts, to);
@@ -441,11 +443,13 @@ scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_erro
     size_t bodies[SCREE_PROCESSES], contacts[SCREE_PROCESSES], total[2], some = 0;
     scree_parts *parts = work->parts;
     scree_status status = work->valid ? SCREE_OK : drop_copies(state, work, error);
+    const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_GATHERS);
     count_all(state, bodies, contacts, total);
     if (!status) status = scree_store_reserve_bodies(state, total[0], false, error);
     if (!status) status = gather_arrays(parts, list, scree_body_arrays(state, list), bodies, total[0], error);
     if (!status) status = list_contacts(state, work, total[1], remembered, &some, error);
     if (!status) status = gather_arrays(parts, remembered, some, contacts, total[1], error);
+    (void)scree_traffic_for(before);
     if (status) return status;
     state->count = total[0];
     state->contact_count = total[1];

@@ -31,6 +31,11 @@ typedef struct scree_parts {
     uint64_t moved;             ///< bodies that have changed their process
     uint64_t steps, bytes;      ///< messages of steps: how often, and what this process sent
     uint64_t ghosts;            ///< from other processes, sum over the lists
+    uint64_t taken;             ///< steps
+    uint64_t taken_bodies;      ///< of this part, sum over the steps
+    uint64_t taken_ghosts;      ///< from other processes, sum over the steps
+    uint64_t needed;            ///< bytes that the fields of ghosts need in the steps, sent by this process
+    double worst;               ///< bodies of the fullest part over their mean, largest when a list was due
 } scree_parts;
 
 /// Bodies of the fullest part over their mean from which on space is cut anew when a list is made.
@@ -69,6 +74,9 @@ scree_status scree_parts_reserve_messages(const scree_state *state, scree_work *
 /// What ghosts elsewhere are told; what they have collected. All processes call them.
 void scree_parts_send(scree_state *state, scree_work *work, scree_message_kind kind, const scree_message_shift *shift);
 void scree_parts_add_back(scree_state *state, scree_work *work);
+
+/// A step has been taken by this part.
+void scree_parts_count_step(const scree_state *state, scree_work *work);
 
 void scree_parts_destroy(scree_work *work);
 

@@ -2,6 +2,7 @@
 /// finds the part of any place by them. Weights are numbers of bodies.
 #include "comm/comm.h"
 #include "comm/mpi_own.h"
+#include "comm/traffic.h"
 
 #include <zoltan.h>
 
@@ -68,6 +69,7 @@ scree_status scree_comm_cut(const scree_vector *place, size_t count, int dimensi
     places all = {place, count, dimension};
     int changes, globals, locals, imports, exports, *import_process, *import_part, *export_process, *export_part;
     ZOLTAN_ID_PTR import_global, import_local, export_global, export_local;
+    const double began = MPI_Wtime();
     bool made = open_cuts();
     if (made) {
         (void)Zoltan_Set_Num_Obj_Fn(cuts, count_places, &all);
@@ -78,6 +80,7 @@ scree_status scree_comm_cut(const scree_vector *place, size_t count, int dimensi
                                    &import_process, &import_part, &exports, &export_global, &export_local,
                                    &export_process, &export_part) == ZOLTAN_OK;
     }
+    scree_traffic_count(0, 0, MPI_Wtime() - began);
     return made ? SCREE_OK : scree_error_set(error, SCREE_ERROR_IO, "Zoltan cannot cut space into parts");
 }
 

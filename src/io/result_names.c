@@ -28,6 +28,15 @@ const scree_result scree_run_results[] = {
     {"wall_time", "s", "wall time until the end of the last stage"},
     {"particle_steps_per_second", "1/s", "speed"},
     {"neighbour_rebuilds", "1", "how often the pair list was made"},
+    // what several processes did, since the last start
+    {"processes", "1", "processes that computed together, where there were several"},
+    {"processes_ghosts", "1", "bodies of others that a process has near its own, mean of the steps"},
+    {"processes_imbalance", "1", "bodies of the fullest part over the mean of the parts, in the mean of the steps"},
+    {"processes_messages", "1", "messages of all processes in a step, those that make lists included"},
+    {"processes_bytes", "1", "bytes of these messages"},
+    {"processes_bytes_ratio", "1", "bytes of messages and reductions over what declared fields of ghosts need"},
+    {"processes_reductions", "1", "reductions over all processes in a step"},
+    {"processes_waiting", "1", "share of the wall time that a process spends in messages and reductions"},
     // its preparation
     {"confine_friction", "1", "friction of the last confine stage"},
     {"solid_fraction_at_start", "1", "solid fraction at the begin of the last stage"},

@@ -27,22 +27,28 @@ typedef struct expense {
     double paraview_file, paraview_body;
     double step_bytes, cell_bytes, figure_bytes; ///< a body
     double live_bytes;                           ///< a body, that a step goes through
+    double rank_bytes;                           ///< a body of the whole, in a process that does not write
 } expense;
 static const expense expenses[2] = {
-    {7e-3, 1e-6, 6e-3, 2e-6, 5e-3, 1.2e-6, 1100, 930, 6200, 319},
-    {7e-3, 2e-6, 6e-3, 8e-6, 5e-3, 6e-6, 1560, 3960, 4500, 488},
+    {7e-3, 1e-6, 6e-3, 2e-6, 5e-3, 1.2e-6, 1100, 930, 6200, 319, 720},
+    {7e-3, 2e-6, 6e-3, 8e-6, 5e-3, 6e-6, 1560, 3960, 4500, 488, 1280},
 };
-#define START          0.07  /* s: libraries, case, folder */
-#define ROW            2e-5  /* s: a row of series.csv */
-#define CHART          0.13  /* s: gnuplot */
-#define SCENE          0.15  /* s: a scene and its pixels */
-#define SCENE_BODY     2e-5  /* s: a body in a scene */
-#define END_OF_CELLS   2.0   /* snapshots' cells: their results at the end of a run */
-#define PROGRAM_BYTES  28e6  /* the libraries that a run needs */
-#define SNAPSHOT_BYTES 0.1e6 /* a snapshot while run.h5 is gathered, */
-#define GATHER_BYTES   1e6   /* and the most of all of them beside those of their bodies */
-#define FIGURE_BYTES   12e6  /* of all figures, and of each scene */
-#define SCENE_BYTES    0.5e6
+/// What comes with MPI: libraries and buffers of a process, of the one that writes; a body while arrays are gathered.
+/// Of 28 November 2026, 1 and 4 processes with 1700 to 19,900 bodies on lattices with 2 and 3 contacts a body.
+#define MPI_BYTES        4e6
+#define MPI_WRITER_BYTES 10.5e6
+#define GATHERED_BYTES   80.0
+#define START            0.07  /* s: libraries, case, folder */
+#define ROW              2e-5  /* s: a row of series.csv */
+#define CHART            0.13  /* s: gnuplot */
+#define SCENE            0.15  /* s: a scene and its pixels */
+#define SCENE_BODY       2e-5  /* s: a body in a scene */
+#define END_OF_CELLS     2.0   /* snapshots' cells: their results at the end of a run */
+#define PROGRAM_BYTES    28e6  /* the libraries that a run needs */
+#define SNAPSHOT_BYTES   0.1e6 /* a snapshot while run.h5 is gathered, */
+#define GATHER_BYTES     1e6   /* and the most of all of them beside those of their bodies */
+#define FIGURE_BYTES     12e6  /* of all figures, and of each scene */
+#define SCENE_BYTES      0.5e6
 /// s: a contact with a wall that only space has (curved, or a mesh), which the probe does without; bodies that have
 /// one: the outermost layers of a sample.
 #define CURVED_CONTACT 0.1e-6
@@ -165,8 +171,10 @@ void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_
         scree_stage_cost stage = scree_stage_expect(model, k, probe->collision);
         cost->steps += stage.steps;
         cost->output += stage.samples * (probe->sample * scale + ROW) + stage.snapshots * snapshot;
+        cost->lists += stage.samples * probe->rebuild * scale;
     }
-    cost->stepping = cost->steps * step_time(model, probe, scale) + probe->preparation * scale;
+    cost->preparation = probe->preparation * scale;
+    cost->stepping = cost->steps * step_time(model, probe, scale) + cost->preparation;
     cost->rate = count / step_time(model, probe, scale);
     double scenes = scenes_of(model, &charts);
     cost->figures = charts * CHART + scenes * (SCENE + SCENE_BODY * count);
@@ -184,4 +192,12 @@ double scree_memory_expect(const scree_model *model)
     for (int64_t k = 0; k < model->stage_count; k++) snapshots += scree_stage_expect(model, k, NAN).snapshots;
     double figures = model->output.figures ? FIGURE_BYTES + SCENE_BYTES * scenes : 0;
     return PROGRAM_BYTES + fmin(snapshots * SNAPSHOT_BYTES, GATHER_BYTES) + figures + body * (double)model->count;
+}
+
+double scree_rank_memory_expect(const scree_model *model, double ghosts, bool writes)
+{
+    const expense *e = &expenses[model->dimension == 3];
+    const double count = (double)model->count, known = e->step_bytes * ghosts;
+    if (writes) return scree_memory_expect(model) + MPI_WRITER_BYTES + GATHERED_BYTES * count + known;
+    return PROGRAM_BYTES + MPI_BYTES + e->rank_bytes * count + known;
 }

@@ -15,6 +15,8 @@ typedef struct scree_stage_cost {
 typedef struct scree_run_cost {
     double steps;                     ///< of all stages
     double stepping, output, figures; ///< s, processor time of one thread
+    double preparation;               ///< s, of the stepping
+    double lists;                     ///< s, beside it: of several processes, pairs of the whole at each sample
     double rate;                      ///< particle-steps a second of the stepping; NAN without steps
     double memory;                    ///< bytes, peak
 } scree_run_cost;
@@ -30,5 +32,9 @@ void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_
 
 /// Peak of the memory [bytes] of the run.
 double scree_memory_expect(const scree_model *model);
+
+/// The same of a process that computes it together with others; `ghosts`: bodies of others that it knows; `writes`: it
+/// is the one that writes and draws.
+double scree_rank_memory_expect(const scree_model *model, double ghosts, bool writes);
 
 #endif

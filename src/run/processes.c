@@ -3,6 +3,11 @@
 
 #include <scree/run.h>
 
+bool scree_processes_can_join(void)
+{
+    return scree_comm_has_transport();
+}
+
 scree_status scree_processes_join(int *count, scree_error *error)
 {
     const scree_status status = scree_comm_join(error);

@@ -69,8 +69,12 @@ static scree_status check_stages(scree_simulation *s, scree_error *error)
 
 scree_status scree_ranks_check(scree_simulation *s, scree_error *error)
 {
+    return scree_comm_size() == 1 ? SCREE_OK : scree_ranks_can_spread(s, error);
+}
+
+scree_status scree_ranks_can_spread(scree_simulation *s, scree_error *error)
+{
     const scree_model *model = &s->model;
-    if (scree_comm_size() == 1) return SCREE_OK;
     scree_status status = check_module(model->scheme, "scheme", error);
     for (int k = 0; k < scree_model_law_count(model) && !status; k++)
         status = check_module(model->laws[k].law, "contact law", error);

@@ -15,6 +15,9 @@ bool scree_ranks_write(void);
 /// Errors: SCREE_ERROR_INPUT when something in the case cannot be spread over several processes, by name.
 scree_status scree_ranks_check(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
+/// The same for any number of processes, before there are several.
+scree_status scree_ranks_can_spread(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
 /// All processes have opened a case: with the same program, the same case, and without an error (`status` is the own
 /// one). Errors: the lowest process's; SCREE_ERROR_INPUT where programs or cases differ.
 scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree_error *error) SCREE_MUST_USE;

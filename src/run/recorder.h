@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "io/series.h"
 #include "run/quasistatic.h"
+#include "run/rank_counts.h"
 #include "run/simulation.h"
 
 typedef struct scree_recorder {
@@ -22,6 +23,7 @@ typedef struct scree_recorder {
     uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
     uint64_t first_evaluations; ///< at `started`
     double stepping;            ///< s of wall time in the stepping loop
+    scree_rank_counts counts;   ///< of all processes, when the stepping loop has ended
 } scree_recorder;
 
 /// Opens log and series in a run directory that exists; rows > 0 or restart: continues the series after `rows` rows.

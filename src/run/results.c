@@ -254,6 +254,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_number(summary, "wall_time", s->state.spent.run);
     scree_summary_set_number(summary, "particle_steps_per_second", steps * (double)s->state.count / recorder->stepping);
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
+    scree_rank_counts_results(&recorder->counts, summary);
 }
 
 /// What the present or last stage cost.

@@ -67,6 +67,7 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
     recorder->stepping = scree_clock() - begin;
     // All other reasons are found by all processes, in the same step.
     if (status == SCREE_ERROR_IO && error) scree_ranks_fail(recorder->options, error);
+    if (!status || status == SCREE_INTERRUPTED) scree_rank_counts_join(s, recorder->stepping, &recorder->counts);
     return status;
 }
 
@@ -101,6 +102,7 @@ static void leave(scree_recorder *recorder, scree_simulation *s, const scree_err
     scree_error second;
     scree_summary *summary;
     bool interrupted = error->status == SCREE_INTERRUPTED;
+    scree_rank_counts_log(&recorder->counts, &recorder->log);
     if (interrupted)
         log_quietly(recorder, SCREE_LOG_INFO, error->message);
     else
@@ -164,6 +166,7 @@ static scree_status complete(scree_recorder *recorder, scree_simulation *s, scre
     scree_notes notes = {0};
     warn_of_springs(recorder, s);
     scree_ranks_log(s, &recorder->log);
+    scree_rank_counts_log(&recorder->counts, &recorder->log);
     scree_status status = scree_results_collect(recorder, s, &summary, error);
     if (!status) status = scree_results_write(recorder, summary, "finishing", error);
     if (!status) status = scree_run_file_finish(recorder->directory, &notes, error);

@@ -6,6 +6,7 @@
 #include "run/step.h"
 
 #include "comm/comm.h"
+#include "comm/parts.h"
 #include "measure/measure.h"
 #include "run/guard.h"
 #include "run/ranks.h"
@@ -166,6 +167,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     const scree_context context = scree_step_context(s);
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < s->pass_count && !status; k++) status = run_pass(s, &s->passes[k], &context, error);
+    if (!status && s->state.part) scree_parts_count_step(&s->state, &s->work);
     return status;
 }
 

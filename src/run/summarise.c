@@ -51,6 +51,8 @@ static scree_status estimate(const scree_case *c, const scree_model *model, scre
     summary->seconds = cost.stepping + cost.output + cost.figures;
     summary->rate = cost.rate;
     summary->memory = cost.memory;
+    summary->preparation = cost.preparation;
+    summary->lists = cost.lists;
     return SCREE_OK;
 }
 

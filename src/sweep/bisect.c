@@ -147,7 +147,7 @@ static int wait_for(const search *s, pid_t process)
     const struct timespec pause = {0, PAUSE_NANOSECONDS};
     while (!scree_process_ended(process, &state)) {
         if (s->options->stop && *s->options->stop && !asked) {
-            scree_process_interrupt(process);
+            scree_process_interrupt(process, false);
             asked = true;
         }
         (void)nanosleep(&pause, NULL);

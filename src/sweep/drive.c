@@ -4,6 +4,7 @@
 #include "base/handle.h"
 #include "sweep/process.h"
 #include "sweep/results.h"
+#include "sweep/several.h"
 #include "sweep/share.h"
 
 #include "base/memory.h"
@@ -128,10 +129,13 @@ static scree_status start_process(const drive *d, const scree_member_paths *path
                                   scree_error *error)
 {
     char threads[16];
+    scree_several several;
     scree_member_paths first;
     const size_t leader = d->leader[j->member];
-    const char *arguments[16] = {d->options->program, "run"};
-    size_t count = 2;
+    const char *arguments[MOST_ARGUMENTS] = {NULL};
+    size_t count = scree_several_put(&several, d->options, arguments);
+    arguments[count++] = d->options->program;
+    arguments[count++] = "run";
     bool restart = scree_member_can_continue(paths, state);
     (void)snprintf(threads, sizeof threads, "%d", d->options->threads > 0 ? d->options->threads : 1);
     arguments[count++] = restart ? "--restart" : paths->file;
@@ -271,7 +275,7 @@ static void wait_for_jobs(drive *d)
 {
     bool stop = d->options->stop && *d->options->stop;
     if (stop && !d->interrupted) {
-        for (size_t i = 0; i < d->running; i++) scree_process_interrupt(d->job[i].process);
+        for (size_t i = 0; i < d->running; i++) scree_process_interrupt(d->job[i].process, d->options->ranks > 1);
         d->interrupted = true;
     }
     size_t before = d->running;
@@ -382,10 +386,13 @@ static scree_status make_folder(drive *d, bool all)
 
 static scree_status open_drive(drive *d, size_t from, size_t to)
 {
-    int threads = d->options->threads > 0 ? d->options->threads : 1, cores = scree_processor_count() / threads;
+    int threads = d->options->threads > 0 ? d->options->threads : 1,
+        ranks = d->options->ranks > 0 ? d->options->ranks : 1;
+    int cores = scree_processor_count() / (threads * ranks);
     int jobs = d->options->jobs > 0 ? d->options->jobs : cores > 0 ? cores : 1;
     d->jobs = (size_t)(jobs < MOST_JOBS ? jobs : MOST_JOBS);
-    scree_status status = make_folder(d, to - from == d->sweep->member_count);
+    scree_status status = scree_several_check(d->sweep, d->options, true, d->error);
+    if (!status) status = make_folder(d, to - from == d->sweep->member_count);
     if (!status) status = scree_allocate(&d->state, d->sweep->member_count, sizeof *d->state, d->error);
     if (!status) status = scree_allocate(&d->leader, d->sweep->member_count, sizeof *d->leader, d->error);
     if (!status) status = scree_allocate(&d->begun, d->sweep->member_count, sizeof *d->begun, d->error);

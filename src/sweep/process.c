@@ -72,7 +72,8 @@ bool scree_process_ended(pid_t process, int *state)
     return got != 0;
 }
 
-void scree_process_interrupt(pid_t process)
+void scree_process_interrupt(pid_t process, bool several)
 {
-    (void)kill(process, SIGINT);
+    // A launcher of MPI that is interrupted leaves its processes a second.
+    (void)kill(process, several ? SIGUSR1 : SIGINT);
 }

@@ -19,7 +19,8 @@ scree_status scree_process_start(const char *const *arguments, int output, pid_t
 /// Whether the process has ended; then *state is its wait status and the process is gone.
 bool scree_process_ended(pid_t process, int *state);
 
-/// Asks a process that has not ended to stop after a checkpoint.
-void scree_process_interrupt(pid_t process);
+/// Asks a process that has not ended to stop after a checkpoint; `several`: it is a launcher of MPI, which passes the
+/// signal on to those that it has started.
+void scree_process_interrupt(pid_t process, bool several);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/handle.h"
 #include "io/run_directory.h"
+#include "sweep/several.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -97,6 +98,7 @@ static void put_command(FILE *file, const scree_sweep *sweep, const scree_sweep_
         put_word(file, read->overrides[i]);
     }
     if (options->threads > 0) (void)fprintf(file, " --threads %d", options->threads);
+    if (options->ranks > 1) (void)fprintf(file, " --ranks %d", options->ranks);
     if (options->retry) (void)fputs(" --retry", file);
     if (!options->figures) (void)fputs(" --no-figures", file);
 }
@@ -106,7 +108,8 @@ scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep
 {
     scree_handle_check(sweep, "a sweep");
     FILE *file;
-    scree_status status = scree_replace_begin(path, &file, error);
+    scree_status status = scree_several_check(sweep, options, false, error);
+    if (!status) status = scree_replace_begin(path, &file, error);
     if (status) return status;
     (void)fprintf(file,
                   "#!/bin/bash\n"
@@ -120,12 +123,13 @@ scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep
                   "# A task that is stopped writes a checkpoint; submitting the script again goes on where it stood.\n"
                   "#SBATCH --job-name=%s\n"
                   "#SBATCH --array=0-%zu\n"
-                  "#SBATCH --ntasks=1\n"
+                  "#SBATCH --ntasks=%d\n"
                   "#SBATCH --cpus-per-task=%d\n"
                   "#SBATCH --time=24:00:00\n"
                   "#SBATCH --signal=B:TERM@120\n"
                   "exec ",
-                  sweep->config.name, sweep->member_count - 1, options->threads > 0 ? options->threads : 1);
+                  sweep->config.name, sweep->member_count - 1, options->ranks > 0 ? options->ranks : 1,
+                  options->threads > 0 ? options->threads : 1);
     put_command(file, sweep, read, options);
     (void)fputs(" --member \"$SLURM_ARRAY_TASK_ID\"\n", file);
     (void)fchmod(fileno(file), 0755);
