@@ -43,7 +43,7 @@ static contact_kernel *choose_kernel(int dimension, int wanted)
 static contact_job describe_job(const scree_model *model, const scree_state *state, const scree_work *work)
 {
     scree_law_bounds bounds = contact_bounds_get(model, state);
-    const size_t held = scree_persistent(state)->count;
+    const size_t held = scree_persistent_total(state);
     double room =
         ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, scree_state_total(state), held));
     return (contact_job){

@@ -17,6 +17,8 @@ const scree_group scree_persistent_group = {
     .symbol = "p",
     .count_offset = offsetof(own, count),
     .capacity_offset = offsetof(own, capacity),
+    .pairs = true,
+    .total_offset = offsetof(own, total),
 };
 
 #define MEMBER(name, type, meaning, member_, ...)                                                                      \
@@ -212,4 +214,5 @@ const scree_module scree_module_persistent = {
     .check = check,
     .checksum = checksum,
     .forget = forget,
+    .spreads = true,
 };
