@@ -122,6 +122,9 @@ static void keep_rows(scree_state *state, const scree_body_array *list, size_t a
         }
         move_element(list, arrays, row, kept++);
     }
+    // The sums of a ghost that takes a row are clear.
+    for (size_t k = 0; k < arrays; k++)
+        memset(*(unsigned char **)list[k].pointer + kept * list[k].size, 0, (state->count - kept) * list[k].size);
     state->count = kept;
     number_rows(state);
 }

@@ -254,8 +254,8 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
-    contact_resting_loads(state, &job->scale, &totals);
     join_totals(state, work->wall_set != NULL, &totals);
+    contact_resting_loads(state, &job->scale, &totals);
     scree_ghosts_add_back(state, work);
     return totals;
 }

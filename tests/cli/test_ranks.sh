@@ -254,9 +254,46 @@ stages:
 $rest
 EOF
 sed 's/name: heap/name: rounded/; s/shape: polygon,/shape: polygon, rounding: 0.2,/; s/polygon_overlap/hertz_mindlin, tangential_history: rescaled/; s/, damping_constant: 0.5//' heap.yaml >rounded.yaml
+# Grains that fall asleep where they lie, and wake when others fall on them. Gear's scheme, whose velocities lead, on a table
+# that shakes, of which not all parts have the fastest body.
+cat >nap.yaml <<EOF
+scree: 1
+name: nap
+seed: 14
+gravity: [0, -9.81]
+materials: [{name: glass, young_modulus: 0.5 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.3}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 45}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.4}
+loads: [{load: background_damping, translation: 0.5, rotation: 0.5}]
+walls: [{shape: plane, name: floor, point: [0, 0], normal: [0, 1]}]
+sources: [{source: line, name: row, start: [-5 mm, 8 mm], end: [5 mm, 8 mm], interval: 2 ms, velocity: [0, -0.2], above: 5 mm}]
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, count: 45, sleep_window: 2 ms, sleep_force: 0.1, sleep_motion: 0.05}
+  - {stage: relax, name: fall, duration: 2 ms}
+$rest
+EOF
+cat >gear.yaml <<EOF
+scree: 1
+name: gear
+dimension: 3
+seed: 15
+gravity: [0, 0, -9.81]
+materials: [{name: rock, young_modulus: 1 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+particles: {shape: sphere, material: rock, distribution: equal, radius: 1.5 mm, count: 64}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: gear, step_fraction: 0.3}
+walls: [{shape: plane, name: floor, point: [0, 0, 0], normal: [0, 0, 1], motion: vibration, amplitude: [0, 0, 1 mm], frequency: 100 1/s}]
+stages:
+  - {stage: prepare, method: cubic}
+  - {stage: relax, name: press, duration: 8 ms, walls: move}
+$rest
+EOF
+sed -i "s/cells: no/cells: no, orientation: yes/" gear.yaml
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid path block pour rain bonded strip heap rounded cell; do
+for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -279,13 +316,15 @@ same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
 refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@:2}"; same "$(grep -c 'cannot be spread' <<<"$output")" 1 "one message: $output"; [ -e no ] && complain "a refused run has made its folder"; }
 refused "boundary 'pressure'" biaxial --quick -o no
 refused "stage 'collide'" restitution -o no
-refused "acts in a stage: 'sleep'" pour.yaml --set stages.pour.sleep_window="1 ms" -o no
+refused "acts in a stage: 'deformation'" ddem-uniaxial --quick -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
 
 # --- bonds broke, and pairs have parted behind it
 for name in bonded strip; do
     checks=$((checks + 1)); [ $(($("$scree" get one-$name bonds_broken_tension) + $("$scree" get one-$name bonds_broken_shear))) -gt 0 ] || complain "no bond of $name broke"
 done
+
+checks=$((checks + 1)); awk -v awake="$("$scree" get one-nap mean_awake)" 'BEGIN {exit !(awake < 40)}' || complain 'nothing of nap slept'
 
 # --- what was poured, waited and was taken out; errors tell of the whole sample; other numbers of processes go on
 for result in spout_waits row_waits row_layers outlet_outflow; do
