@@ -37,6 +37,8 @@ static const scree_field fields[] = {
                     "largest gap between the surfaces of a held pair", SCREE_RANGE(0, DBL_MAX)),
     SCREE_FIELD_ONE(persistent, own, changes, "persistent/changes", SCREE_FIELD_UINT64, 1, "1",
                     "held pairs that were added or removed", .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_ONE(persistent, own, total, "persistent/total", SCREE_FIELD_UINT64, 1, "1",
+                    "held pairs of all processes", .role = SCREE_FIELD_DERIVED),
 };
 
 static bool comes_before(const scree_persistent_member *a, uint32_t first, uint32_t second)
