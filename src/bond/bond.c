@@ -59,12 +59,11 @@ size_t scree_bonds_standing(const scree_state *state)
 static void note(scree_state *state, const contact_settled *settled)
 {
     own *bonds = scree_bonds_of(state);
-    const scree_persistent_member *member = &scree_persistent(state)->member[settled->member];
     scree_break *event = &bonds->event[bonds->count++];
     *event = (scree_break){.time = scree_state_time(state),
                            .step = state->step,
-                           .first = member->first,
-                           .second = member->second,
+                           .first = settled->first,
+                           .second = settled->second,
                            .mode = settled->in_tension ? SCREE_BREAK_TENSION : SCREE_BREAK_SHEAR,
                            .normal_force = settled->normal_force,
                            .tangential_force = settled->tangential_force,
@@ -81,19 +80,23 @@ static scree_status settle(const scree_context *c, scree_error *error)
 {
     scree_state *state = c->state;
     contact_settled *settled;
-    size_t count, parted = 0, *number = NULL;
+    size_t count, parted = 0, dropped = 0, *number = NULL;
     if (!c->work->settle) return SCREE_OK;
     scree_status status = contact_settle(c->model, state, c->work, &settled, &count, error);
     if (!status) status = scree_allocate(&number, count, sizeof *number, error);
     if (!status)
         status = scree_group_reserve(state, &scree_module_bonds, &breaks, scree_bonds_of(state)->count + count, error);
     for (size_t k = 0; k < count && !status; k++) {
-        if (settled[k].parted)
-            number[parted++] = settled[k].member;
-        else
+        if (!settled[k].parted) {
             note(state, &settled[k]);
+            continue;
+        }
+        parted++;
+        number[dropped] = scree_persistent_find(state, settled[k].first, settled[k].second);
+        dropped += number[dropped] != SIZE_MAX; // else with another process
     }
-    if (!status) scree_persistent_drop(state, number, parted);
+    if (!status) scree_persistent_drop(state, number, dropped);
+    if (!status) scree_persistent(state)->total -= parted;
     scree_release(&number);
     scree_release(&settled);
     return status;
@@ -206,6 +209,7 @@ const scree_module scree_module_bonds = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .work = work,
     .columns = SCREE_RESULTS(columns, sample),
     .results = SCREE_RESULTS(results, summarise),

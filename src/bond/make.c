@@ -70,8 +70,11 @@ static void swap_forces(const scree_model *model, scree_state *state, scree_work
         const swap *s = &of[candidate - all->pair];
         const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
         memory_set(after[p].variant, &memory, &after[p].memory);
+        double virial[2][9];
         contact_exchange(state, scree_parent_row(state, work, pairs->first[p]),
-                         scree_parent_row(state, work, pairs->second[p]), s->touches ? &s->before : NULL, &after[p]);
+                         scree_parent_row(state, work, pairs->second[p]), s->touches ? &s->before : NULL, &after[p],
+                         virial);
+        contact_add_virial(state, (const double(*)[9])virial);
     }
 }
 

@@ -10,10 +10,18 @@
 
 typedef scree_delaunay_boundary own;
 
-const scree_group scree_loop_group = {"vertex", "b", offsetof(own, loop.count), offsetof(own, loop.capacity)};
-const scree_group scree_hull_nodes = {"node", "h", offsetof(own, hull.node_count), offsetof(own, hull.node_capacity)};
-const scree_group scree_hull_triangles = {"triangle", "t", offsetof(own, hull.triangle_count),
-                                          offsetof(own, hull.triangle_capacity)};
+const scree_group scree_loop_group = {.row = "vertex",
+                                      .symbol = "b",
+                                      .count_offset = offsetof(own, loop.count),
+                                      .capacity_offset = offsetof(own, loop.capacity)};
+const scree_group scree_hull_nodes = {.row = "node",
+                                      .symbol = "h",
+                                      .count_offset = offsetof(own, hull.node_count),
+                                      .capacity_offset = offsetof(own, hull.node_capacity)};
+const scree_group scree_hull_triangles = {.row = "triangle",
+                                          .symbol = "t",
+                                          .count_offset = offsetof(own, hull.triangle_count),
+                                          .capacity_offset = offsetof(own, hull.triangle_capacity)};
 
 #define ONE(...) SCREE_FIELD_ONE(delaunay_boundary, own, __VA_ARGS__)
 #define LOOP(member, element, name, type, unit, meaning, ...)                                                          \

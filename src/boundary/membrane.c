@@ -260,7 +260,10 @@ static const scree_pass passes[] = {
 
 typedef scree_membrane own;
 
-const scree_group scree_membrane_bodies = {"body of the membrane", "k", offsetof(own, count), offsetof(own, capacity)};
+const scree_group scree_membrane_bodies = {.row = "body of the membrane",
+                                           .symbol = "k",
+                                           .count_offset = offsetof(own, count),
+                                           .capacity_offset = offsetof(own, capacity)};
 
 #define ONE(...) SCREE_FIELD_ONE(membrane, own, __VA_ARGS__)
 #define BODY(member, name, unit, meaning, ...)                                                                         \

@@ -34,6 +34,28 @@ size_t scree_parts_trade(const size_t *send, size_t *receive)
     return sum;
 }
 
+size_t scree_parts_count(size_t mine, size_t *counts)
+{
+    size_t said[SCREE_PROCESSES];
+    for (int r = 0; r < scree_comm_size(); r++) said[r] = mine;
+    return scree_parts_trade(said, counts);
+}
+
+scree_status scree_parts_collect(const scree_state *state, void *list, size_t *count, size_t size, scree_error *error)
+{
+    size_t counts[SCREE_PROCESSES];
+    void *all, **own = list;
+    if (!state->part) return SCREE_OK;
+    const size_t total = scree_parts_count(*count, counts);
+    scree_status status = scree_allocate(&all, total + 1, size, error);
+    if (status) return status;
+    scree_comm_gather(*own, all, counts, size);
+    scree_release(own);
+    *own = all;
+    *count = total;
+    return SCREE_OK;
+}
+
 scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost, scree_error *error)
 {
     scree_parts *parts = work->parts;

@@ -1,4 +1,5 @@
-/// Parts of a sample: who has which body, and how bodies and what contacts remember go from one process to another.
+/// Parts of a sample: who has which body, and how bodies and what belongs to two of them (comm/pair_sets.h) go from one
+/// process to another.
 ///
 /// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
 /// when a state is spread, and anew when the fullest part has SCREE_PARTS_IMBALANCE times the mean. Between two lists a
@@ -10,6 +11,7 @@
 
 #include "base/checksum.h"
 #include "comm/comm.h"
+#include "comm/pair_sets.h"
 #include "comm/traffic.h"
 #include "state/periodic.h"
 #include "state/store.h"
@@ -122,6 +124,9 @@ static void keep_rows(scree_state *state, const scree_body_array *list, size_t a
         }
         move_element(list, arrays, row, kept++);
     }
+    // The sums of a ghost that takes a row are clear.
+    for (size_t k = 0; k < arrays; k++)
+        memset(*(unsigned char **)list[k].pointer + kept * list[k].size, 0, (state->count - kept) * list[k].size);
     state->count = kept;
     number_rows(state);
 }
@@ -146,49 +151,31 @@ static scree_status reserve_rows(scree_state *state, scree_work *work, size_t co
     return status;
 }
 
-// ---- what contacts remember --------------------------------------------------------------------------------------
+// ---- what belongs to two bodies ----------------------------------------------------------------------------------
 
-/// The arrays of contacts, at most four, which all processes have alike, with room for `count` contacts.
-static scree_status list_contacts(scree_state *state, const scree_work *work, size_t count, scree_body_array list[4],
-                                  size_t *arrays, scree_error *error)
+/// The processes that the two bodies of element `k` go to; a wall goes with the body.
+static void ends_of(const scree_state *state, const scree_pair_set *set, const int32_t *to, size_t k, int32_t end[2])
 {
-    scree_status status = scree_state_reserve_contacts(state, count + 1, error);
-    if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
-    if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
-    if (!status && state->pair_laws > 0) status = scree_state_add_contact_law(state, error);
-    *arrays = 0;
-    list[(*arrays)++] = (scree_body_array){.pointer = &state->contact, .size = sizeof *state->contact};
-    if (state->last_force)
-        list[(*arrays)++] = (scree_body_array){.pointer = &state->last_force, .size = sizeof *state->last_force};
-    if (state->rolling)
-        list[(*arrays)++] = (scree_body_array){.pointer = &state->rolling, .size = sizeof *state->rolling};
-    if (state->contact_law)
-        list[(*arrays)++] = (scree_body_array){.pointer = &state->contact_law, .size = sizeof *state->contact_law};
-    return status;
-}
-
-/// The processes that the two bodies of contact `k` go to; a wall goes with the body.
-static void ends_of(const scree_state *state, const int32_t *to, size_t k, int end[2])
-{
-    const scree_contact_memory *memory = &state->contact[k];
-    const uint32_t first = scree_state_row_of(state, memory->first);
+    uint32_t id[2];
+    scree_pair_set_ids(set, k, id);
+    const uint32_t first = scree_state_row_of(state, id[0]);
     uint32_t second = first;
-    if (memory->second < SCREE_PRIMITIVE_ID) second = scree_state_row_of(state, memory->second);
+    if (id[1] < SCREE_PRIMITIVE_ID) second = scree_state_row_of(state, id[1]);
     end[0] = first == SCREE_NO_ROW ? scree_comm_rank() : to[first];
     end[1] = second == SCREE_NO_ROW ? end[0] : to[second];
 }
 
-/// Leaves the contacts of bodies that stay here, in their order.
-static void keep_contacts(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
+/// Leaves the elements of bodies that stay here, in their order.
+static void keep_pairs(const scree_state *state, const scree_pair_set *set, const int32_t *to)
 {
     size_t kept = 0;
-    for (size_t c = 0; c < state->contact_count; c++) {
-        int end[2];
-        ends_of(state, to, c, end);
+    for (size_t k = 0; k < *set->count; k++) {
+        int32_t end[2];
+        ends_of(state, set, to, k, end);
         if (end[0] != scree_comm_rank() && end[1] != scree_comm_rank()) continue;
-        move_element(list, arrays, c, kept++);
+        move_element(set->list, set->arrays, k, kept++);
     }
-    state->contact_count = kept;
+    *set->count = kept;
 }
 
 // ---- from one process to another ---------------------------------------------------------------------------------
@@ -296,24 +283,23 @@ static void forget_away(scree_state *state, const scree_work *work)
     for (size_t k = 0; k < work->ghosts.away; k++) state->row_of_id[state->id[first + k]] = SCREE_NO_ROW;
 }
 
-static scree_status move_contacts(scree_state *state, scree_work *work, const int32_t *to, scree_error *error)
+static scree_status move_pairs(scree_state *state, const scree_pair_set *set, const int32_t *to, scree_error *error)
 {
-    scree_body_array list[4];
-    size_t arrays = 0;
+    const size_t count = *set->count;
     int32_t *ends = NULL;
     journey j = {0};
-    scree_status status = list_contacts(state, work, state->contact_count, list, &arrays, error);
-    if (!status) status = scree_allocate(&ends, 2 * state->contact_count + 1, sizeof *ends, error);
-    if (!status) status = journey_open(&j, 2 * state->contact_count, error);
-    for (size_t k = 0; k < state->contact_count && !status; k++) ends_of(state, to, k, ends + 2 * k);
-    if (!status) status = journey_make(&j, ends, state->contact_count, list, arrays, error);
+    scree_status status = scree_allocate(&ends, 2 * count + 1, sizeof *ends, error);
+    if (!status) status = journey_open(&j, 2 * count, error);
+    for (size_t k = 0; k < count && !status; k++) ends_of(state, set, to, k, ends + 2 * k);
+    if (!status) status = journey_make(&j, ends, count, set->list, set->arrays, error);
     if (!status) {
-        keep_contacts(state, list, arrays, to);
-        status = list_contacts(state, work, state->contact_count + j.arriving, list, &arrays, error);
+        keep_pairs(state, set, to);
+        status = scree_pair_set_reserve(state, set, *set->count + j.arriving, error);
     }
     if (!status) {
-        journey_end(&j, list, arrays, state->contact_count);
-        state->contact_count += j.arriving;
+        journey_end(&j, set->list, set->arrays, *set->count);
+        *set->count += j.arriving;
+        scree_pair_set_sort(set);
     }
     journey_destroy(&j);
     scree_release(&ends);
@@ -349,14 +335,17 @@ static scree_status move_rows(scree_state *state, scree_work *work, const int32_
 scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_error *error)
 {
     scree_parts *parts = work->parts;
+    scree_pair_set set[SCREE_PAIR_SETS];
+    size_t sets;
     int32_t *to = NULL;
-    scree_status status = SCREE_OK;
+    scree_status status = scree_pair_sets_list(state, work, set, &sets, error);
+    if (status) return status;
     if (out_of_balance(state, parts)) status = cut(state, parts, 0, state->count, error);
     if (!status) status = scree_allocate(&to, scree_row_count(state, work) + 1, sizeof *to, error);
     if (status) return status;
     choose(state, parts, to);
     status = tell_ghosts(state, work, to, error);
-    if (!status) status = move_contacts(state, work, to, error);
+    for (size_t k = 0; k < sets && !status; k++) status = move_pairs(state, &set[k], to, error);
     forget_away(state, work);
     if (!status) status = move_rows(state, work, to, error);
     forget_ghosts(work);
@@ -370,18 +359,22 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
 
 scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error)
 {
-    scree_body_array list[SCREE_BODY_ARRAYS], contacts[4];
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    scree_pair_set set[SCREE_PAIR_SETS];
     int32_t *to = NULL;
-    size_t some = 0;
+    size_t sets = 0;
     const size_t size = (size_t)scree_comm_size(), here = (size_t)scree_comm_rank();
     scree_status status = open_parts(work, error);
     if (!status) status = scree_allocate(&to, state->count + 1, sizeof *to, error);
     if (!status) status = cut(state, work->parts, state->count * here / size, state->count * (here + 1) / size, error);
-    if (!status) status = list_contacts(state, work, state->contact_count, contacts, &some, error);
+    if (!status) status = scree_pair_sets_list(state, work, set, &sets, error);
     if (!status) {
         choose(state, work->parts, to);
         state->total = state->count;
-        keep_contacts(state, contacts, some, to);
+        for (size_t k = 0; k < sets; k++) {
+            if (set[k].total) *set[k].total = *set[k].count;
+            keep_pairs(state, &set[k], to);
+        }
         keep_rows(state, list, scree_body_arrays(state, list), to);
         state->part = true;
         state->changes++;
@@ -409,56 +402,51 @@ static scree_status gather_arrays(scree_parts *parts, const scree_body_array *li
     return status;
 }
 
-/// Numbers of bodies and of contacts that each process has; returns the sums in total[2].
-static void count_all(const scree_state *state, size_t *bodies, size_t *contacts, size_t total[2])
+/// Elements lie with both of their bodies until a list is made of them: leaves each with its first one.
+static void drop_copies(const scree_state *state, const scree_pair_set *set)
 {
-    uint64_t mine[2 * SCREE_PROCESSES], theirs[2 * SCREE_PROCESSES];
-    total[0] = total[1] = 0;
-    for (int r = 0; r < scree_comm_size(); r++) {
-        mine[2 * r] = state->count;
-        mine[2 * r + 1] = state->contact_count;
+    size_t kept = 0;
+    for (size_t k = 0; k < *set->count; k++) {
+        uint32_t id[2];
+        scree_pair_set_ids(set, k, id);
+        if (scree_state_row_of(state, id[0]) != SCREE_NO_ROW) move_element(set->list, set->arrays, k, kept++);
     }
-    scree_comm_trade(mine, theirs, 2);
-    for (int r = 0; r < scree_comm_size(); r++) {
-        total[0] += bodies[r] = theirs[2 * r];
-        total[1] += contacts[r] = theirs[2 * r + 1];
-    }
+    *set->count = kept;
 }
 
-/// Contacts lie with both of their bodies until a list is made of them: leaves each with its first one.
-static scree_status drop_copies(scree_state *state, const scree_work *work, scree_error *error)
+static scree_status gather_pairs(scree_state *state, scree_work *work, const scree_pair_set *set, scree_error *error)
 {
-    scree_body_array list[4];
-    size_t arrays = 0, kept = 0;
-    scree_status status = list_contacts(state, work, state->contact_count, list, &arrays, error);
-    for (size_t c = 0; c < state->contact_count && !status; c++)
-        if (scree_state_row_of(state, state->contact[c].first) != SCREE_NO_ROW) move_element(list, arrays, c, kept++);
-    if (!status) state->contact_count = kept;
-    return status;
+    size_t counts[SCREE_PROCESSES];
+    if (!work->valid) drop_copies(state, set);
+    const size_t total = scree_parts_count(*set->count, counts);
+    scree_status status = scree_pair_set_reserve(state, set, total + 1, error);
+    if (!status) status = gather_arrays(work->parts, set->list, set->arrays, counts, total, error);
+    if (status) return status;
+    *set->count = total;
+    scree_pair_set_sort(set);
+    return SCREE_OK;
 }
 
 scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error)
 {
-    scree_body_array list[SCREE_BODY_ARRAYS], remembered[4];
-    size_t bodies[SCREE_PROCESSES], contacts[SCREE_PROCESSES], total[2], some = 0;
-    scree_parts *parts = work->parts;
-    scree_status status = work->valid ? SCREE_OK : drop_copies(state, work, error);
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    scree_pair_set set[SCREE_PAIR_SETS];
+    size_t bodies[SCREE_PROCESSES], sets = 0;
     const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_GATHERS);
-    count_all(state, bodies, contacts, total);
-    if (!status) status = scree_store_reserve_bodies(state, total[0], false, error);
-    if (!status) status = gather_arrays(parts, list, scree_body_arrays(state, list), bodies, total[0], error);
-    if (!status) status = list_contacts(state, work, total[1], remembered, &some, error);
-    if (!status) status = gather_arrays(parts, remembered, some, contacts, total[1], error);
+    scree_status status = scree_pair_sets_list(state, work, set, &sets, error);
+    for (size_t k = 0; k < sets && !status; k++) status = gather_pairs(state, work, &set[k], error);
+    const size_t total = scree_parts_count(state->count, bodies);
+    if (!status) status = scree_store_reserve_bodies(state, total, false, error);
+    if (!status) status = gather_arrays(work->parts, list, scree_body_arrays(state, list), bodies, total, error);
     (void)scree_traffic_for(before);
     if (status) return status;
-    state->count = total[0];
-    state->contact_count = total[1];
+    state->count = total;
     number_rows(state);
     state->part = false;
     state->changes++;
     forget_ghosts(work);
     work->valid = false;
     work->clear_rows = 0;
-    parts->gathers++;
+    work->parts->gathers++;
     return SCREE_OK;
 }

@@ -10,7 +10,8 @@
 /// image with a positive shift, as one process does it. So positions of a pair are the same doubles wherever it is
 /// evaluated, and integer sums do the rest.
 ///
-/// What a contact remembers travels with both of its bodies, as nobody knows yet which process will evaluate it.
+/// What a contact remembers, or a pair that is held, travels with both of its bodies, as nobody knows yet which process
+/// will evaluate it.
 #ifndef SCREE_COMM_PARTS_H
 #define SCREE_COMM_PARTS_H
 
@@ -59,6 +60,14 @@ void scree_parts_boxes(const scree_state *state, double (*box)[6]);
 /// receive[r]: how many elements come from process r, which tells send[r'] of them to each r'. Returns their sum. All
 /// processes call it.
 size_t scree_parts_trade(const size_t *send, size_t *receive);
+
+/// counts[r]: how many elements process r has, which says `mine`. Returns their sum. All processes call it.
+size_t scree_parts_count(size_t mine, size_t *counts);
+
+/// `count` elements of `size` bytes in an array of its own, *list: where the state is a part those of all processes
+/// take their place, by the numbers of processes. Errors: memory. All processes call it.
+scree_status scree_parts_collect(const scree_state *state, void *list, size_t *count, size_t size,
+                                 scree_error *error) SCREE_MUST_USE;
 
 /// Another process will have this ghost; scree_parts_link tells it. Errors: memory.
 scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost,

@@ -107,7 +107,7 @@ scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state 
                                      .step = state->step_size};
     scree_law_bounds once = bounds_under(model, 0, &extent);
     for (int k = 1; k < scree_model_law_count(model); k++) once = larger(once, bounds_under(model, k, &extent));
-    if (scree_persistent(state)->count > 0) once = larger(once, bounds_of_held(model, state));
+    if (scree_persistent_total(state) > 0) once = larger(once, bounds_of_held(model, state));
     return (scree_law_bounds){
         .force = 2 * gain * once.force, .damping = 2 * once.damping, .friction = 2 * once.friction};
 }

@@ -43,7 +43,7 @@ static contact_kernel *choose_kernel(int dimension, int wanted)
 static contact_job describe_job(const scree_model *model, const scree_state *state, const scree_work *work)
 {
     scree_law_bounds bounds = contact_bounds_get(model, state);
-    const size_t held = scree_persistent(state)->count;
+    const size_t held = scree_persistent_total(state);
     double room =
         ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, scree_state_total(state), held));
     return (contact_job){
@@ -254,8 +254,8 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
-    contact_resting_loads(state, &job->scale, &totals);
     join_totals(state, work->wall_set != NULL, &totals);
+    contact_resting_loads(state, &job->scale, &totals);
     scree_ghosts_add_back(state, work);
     return totals;
 }

@@ -29,5 +29,6 @@ const scree_module scree_module_polygon_overlap = {
     .law = &law,
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .spreads = true,
     .results = {.row = rows, .count = sizeof rows / sizeof *rows, .measure = scree_polygon_told},
 };

@@ -24,4 +24,5 @@ const scree_module scree_module_polygon_potential = {
     .law = &law,
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .spreads = true,
 };

@@ -87,7 +87,7 @@ void contact_sum_resting_loads(const scree_model *model, scree_state *state, con
 void contact_resting_loads(const scree_state *state, const contact_scale *scale, contact_totals *totals)
 {
     const scree_sleep *sleep = scree_sleep_of(state);
-    for (int w = 0; w < SCREE_SURFACES && sleep->count > 0; w++)
+    for (int w = 0; w < SCREE_SURFACES && sleep->total > 0; w++)
         for (int k = 0; k < 3; k++) {
             const double force = (double)sleep->wall[w].force[k] * sleep->force_unit,
                          torque = (double)sleep->wall[w].torque[k] * sleep->wall_torque_unit;

@@ -1,4 +1,6 @@
 /// Breaking in the middle of a step: settle.h.
+#include "comm/comm.h"
+#include "comm/parts.h"
 #include "contact/settle.h"
 
 #include "state/periodic.h"
@@ -6,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // ---- exchange of forces ------------------------------------------------------------------------------------------
 
@@ -35,7 +38,7 @@ static void add_moments(scree_state *state, uint32_t row, const contact_evaluati
         sum[k] = (int64_t)((uint64_t)sum[k] + (minus ? -moment[k] : moment[k]));
 }
 
-static void add_virial(scree_state *state, const contact_evaluation *e, bool minus)
+static void find_virial(const scree_state *state, const contact_evaluation *e, bool minus, double virial[9])
 {
     const int dimension = state->dimension;
     const vector apart = vector_minus(dimension, e->first.position, e->second.position);
@@ -43,12 +46,14 @@ static void add_virial(scree_state *state, const contact_evaluation *e, bool min
     const uint64_t force[3] = {e->quanta.force.x, e->quanta.force.y, dimension == 3 ? e->quanta.force.z : 0};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            scree_cell(state)->virial[3 * i + j] +=
+            virial[3 * i + j] =
                 (minus ? -1 : 1) * (scree_fixed_to((int64_t)force[i], state->force_quantum) * branch[j]);
 }
 
-static void add(scree_state *state, uint32_t first, uint32_t second, const contact_evaluation *e, bool minus)
+static void add(scree_state *state, uint32_t first, uint32_t second, const contact_evaluation *e, bool minus,
+                double virial[9])
 {
+    memset(virial, 0, 9 * sizeof *virial);
     if (!e) return;
     add_sums(state, first, e, true, minus);
     add_sums(state, second, e, false, minus);
@@ -56,14 +61,23 @@ static void add(scree_state *state, uint32_t first, uint32_t second, const conta
         add_moments(state, first, e, e->moment_first, minus);
         add_moments(state, second, e, e->moment_second, minus);
     }
-    if (scree_periodic_is_whole(state)) add_virial(state, e, minus);
+    find_virial(state, e, minus, virial);
 }
 
 void contact_exchange(scree_state *state, uint32_t first, uint32_t second, const contact_evaluation *before,
-                      const contact_evaluation *after)
+                      const contact_evaluation *after, double virial[2][9])
 {
-    add(state, first, second, before, true);
-    add(state, first, second, after, false);
+    add(state, first, second, before, true, virial[0]);
+    add(state, first, second, after, false, virial[1]);
+}
+
+void contact_add_virial(scree_state *state, const double virial[2][9])
+{
+    if (!scree_periodic_is_whole(state)) return;
+    for (int k = 0; k < 9; k++) {
+        scree_cell(state)->virial[k] += virial[0][k];
+        scree_cell(state)->virial[k] += virial[1][k];
+    }
 }
 
 // ---- breaking ----------------------------------------------------------------------------------------------------
@@ -90,11 +104,9 @@ static void describe(const scree_state *state, const scree_work *work, const con
     const double normal[3] = {m->normal.x, m->normal.y, dimension == 3 ? m->normal.z : 0};
     const contact_branch point = contact_branch_of(e->variant, m, true);
     const double along[3] = {point.along.x, point.along.y, dimension == 3 ? point.along.z : 0};
-    // The first body may be a ghost: the place is told where the body itself is.
-    scree_body_position(state, scree_parent_row(state, work, work->pairs.first[settled->pair]), settled->place);
     for (int k = 0; k < 3; k++) {
         settled->normal[k] = normal[k];
-        settled->place[k] -= point.arm * along[k];
+        settled->place[k] = point.arm * along[k];
     }
 }
 
@@ -114,8 +126,9 @@ static void fracture(const scree_model *model, scree_state *state, scree_work *w
 {
     const size_t p = settled->pair;
     const int count = tangential_count(state->dimension);
+    const size_t member = scree_persistent_find(state, settled->first, settled->second);
     work->pairs.own[p].value[SCREE_MEMBER_TENSION] = SCREE_MEMBER_BROKEN;
-    scree_persistent(state)->member[settled->member].constant[SCREE_MEMBER_TENSION] = SCREE_MEMBER_BROKEN;
+    scree_persistent(state)->member[member].constant[SCREE_MEMBER_TENSION] = SCREE_MEMBER_BROKEN;
     const contact_evaluation after = evaluate(model, state, work, p);
     const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
     memory_set(after.variant, &memory, &after.memory);
@@ -125,38 +138,70 @@ static void fracture(const scree_model *model, scree_state *state, scree_work *w
                          straining_power(count, before, &after);
     settled->energy = contact_elastic_energy(before) - contact_elastic_energy(&after) - 0.5 * power * state->step_size;
     contact_exchange(state, scree_parent_row(state, work, work->pairs.first[p]),
-                     scree_parent_row(state, work, work->pairs.second[p]), before, &after);
+                     scree_parent_row(state, work, work->pairs.second[p]), before, &after, settled->virial);
 }
 
 static int compare(const void *a, const void *b)
 {
     const contact_settled *p = a, *q = b;
-    return p->member < q->member ? -1 : p->member > q->member;
+    if (p->first != q->first) return p->first < q->first ? -1 : 1;
+    return p->second < q->second ? -1 : p->second > q->second;
+}
+
+static void sort(contact_settled *settled, size_t count)
+{
+    if (count > 0) qsort(settled, count, sizeof *settled, compare);
+}
+
+/// What breaks or has parted in this process.
+static scree_status find(const scree_model *model, const scree_state *state, const scree_work *work,
+                         contact_settled **settled, size_t *count, scree_error *error)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    size_t most = 0;
+    *count = 0;
+    for (size_t p = 0; p < scree_pairs_held(pairs); p++) most += evaluate(model, state, work, p).force.settle != 0;
+    scree_status status = scree_allocate(settled, most, sizeof **settled, error);
+    for (size_t p = 0; p < scree_pairs_held(pairs) && *count < most && !status; p++)
+        if (evaluate(model, state, work, p).force.settle)
+            (*settled)[(*count)++] = (contact_settled){.pair = p,
+                                                       .first = state->id[pairs->first[p]],
+                                                       .second = state->id[pairs->second[p]],
+                                                       .parted = pairs->own[p].value[SCREE_MEMBER_TENSION] < 0};
+    if (!status) sort(*settled, *count);
+    return status;
+}
+
+/// Of the contact, from where its first body is; a ghost of it may be elsewhere.
+static void place(const scree_state *state, contact_settled *settled)
+{
+    scree_vector body = {-INFINITY, -INFINITY, -INFINITY};
+    const uint32_t row = scree_state_row_of(state, settled->first);
+    if (row != SCREE_NO_ROW) scree_body_position(state, row, body);
+    scree_comm_maximum(state, body, 3);
+    for (int k = 0; k < 3; k++) settled->place[k] = body[k] - settled->place[k];
 }
 
 scree_status contact_settle(const scree_model *model, scree_state *state, scree_work *work, contact_settled **settled,
                             size_t *count, scree_error *error)
 {
-    const scree_pair_list *pairs = &work->pairs;
-    *count = 0;
     *settled = NULL;
-    for (size_t p = 0; p < scree_pairs_held(pairs); p++) *count += evaluate(model, state, work, p).force.settle != 0;
-    scree_status status = scree_allocate(settled, *count, sizeof **settled, error);
+    scree_status status = find(model, state, work, settled, count, error);
     if (status) return status;
-    size_t found = 0;
-    for (size_t p = 0; p < scree_pairs_held(pairs) && found < *count; p++) {
-        if (!evaluate(model, state, work, p).force.settle) continue;
-        (*settled)[found++] = (contact_settled){
-            .pair = p,
-            .member = scree_persistent_find(state, state->id[pairs->first[p]], state->id[pairs->second[p]]),
-            .parted = pairs->own[p].value[SCREE_MEMBER_TENSION] < 0};
-    }
-    qsort(*settled, *count, sizeof **settled, compare);
     for (size_t k = 0; k < *count; k++) {
         if ((*settled)[k].parted) continue;
         const contact_evaluation before = evaluate(model, state, work, (*settled)[k].pair);
         describe(state, work, &before, &(*settled)[k]);
         fracture(model, state, work, &before, &(*settled)[k]);
+    }
+    // What bodies of other processes get lies with their ghosts.
+    if (state->part) scree_comm_add_back(state, work);
+    if ((status = scree_parts_collect(state, settled, count, sizeof **settled, error))) return status;
+    sort(*settled, *count);
+    for (size_t k = 0; k < *count; k++) {
+        if ((*settled)[k].parted) continue;
+        place(state, &(*settled)[k]);
+        contact_add_virial(state, (const double(*)[9])(*settled)[k].virial);
     }
     return SCREE_OK;
 }

@@ -16,7 +16,8 @@
 
 /// One of them, with what it exerted while it stood.
 typedef struct contact_settled {
-    size_t pair, member;     ///< number in the list, and in the persistent list
+    size_t pair;             ///< number in the list, of a part in that of its process
+    uint32_t first, second;  ///< ids
     bool parted;             ///< was broken before: nothing happens to its forces
     bool in_tension;         ///< broke in tension; else in shear
     scree_vector place;      ///< m, of the contact on the first body
@@ -24,17 +25,21 @@ typedef struct contact_settled {
     double normal_force;     ///< N
     double tangential_force; ///< N, magnitude
     double energy;           ///< J, fracture
+    double virial[2][9];     ///< J, what goes and what comes
 } contact_settled;
 
-/// Breaks what has to break in the forces of this step, and finds what has parted; by the number of the member, which
-/// is the order of ids. For the phase of contacts, behind their forces. Release *settled. Errors: memory, nothing has
-/// changed then. Cost: a pass over the held pairs.
+/// Breaks what has to break in the forces of this step, and finds what has parted; in the order of ids, of a part that
+/// of all processes, which call it together. For the phase of contacts, behind their forces. Release *settled. Errors:
+/// memory, nothing has changed then. Cost: a pass over the held pairs.
 scree_status contact_settle(const scree_model *model, scree_state *state, scree_work *work, contact_settled **settled,
                             size_t *count, scree_error *error) SCREE_MUST_USE;
 
-/// Puts what a pair exerts `after` in place of what it exerted `before` into the sums of two bodies, and into moments
-/// and virial. Both evaluated in the quanta of the state; NULL: nothing.
+/// Puts what a pair exerts `after` in place of what it exerted `before` into the sums of two bodies, and into moments.
+/// Both evaluated in the quanta of the state; NULL: nothing. virial [J]: what goes and what comes (contact_add_virial).
 void contact_exchange(scree_state *state, uint32_t first, uint32_t second, const contact_evaluation *before,
-                      const contact_evaluation *after);
+                      const contact_evaluation *after, double virial[2][9]);
+
+/// Adds it to that of a cell in motion.
+void contact_add_virial(scree_state *state, const double virial[2][9]);
 
 #endif

@@ -303,7 +303,9 @@ static void first(const scree_model *model, scree_state *state, scree_work *work
         largest.surface = fmax(largest.surface, task.speeds[k].surface);
         largest.centre = fmax(largest.centre, task.speeds[k].centre);
     }
-    scree_kick_add_work(state, work, largest);
+    double most[] = {largest.surface, largest.centre};
+    scree_comm_maximum(state, most, 2);
+    scree_kick_add_work(state, work, (scree_speeds){most[0], most[1]});
 }
 
 static void share_second(void *argument, int index, int count)
@@ -455,4 +457,5 @@ const scree_module scree_module_gear = {
     .checksum = checksum,
     .begin = begin,
     .integrator = &integrator,
+    .spreads = true,
 };

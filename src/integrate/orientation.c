@@ -188,4 +188,5 @@ const scree_module scree_module_orientation = {
     .passes = passes,
     .pass_count = COUNT(passes),
     .in_use = in_use,
+    .spreads = true,
 };

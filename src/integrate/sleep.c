@@ -361,22 +361,12 @@ static void change(const scree_context *c)
     contact_sum_resting_loads(c->model, state, c->work);
 }
 
-/// Gravity of the last step; all wake when it has changed.
-static void follow_gravity(const scree_context *c)
-{
-    scree_sleep *sleep = scree_sleep_of(c->state);
-    if (memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) == 0) return;
-    wake_all(c);
-    memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
-}
+// ---- the passes ---------------------------------------------------------------------------------------------------
 
-// ---- the pass -----------------------------------------------------------------------------------------------------
-
-static scree_status decide(const scree_context *c, scree_error *error)
+static scree_status list(const scree_context *c, scree_error *error)
 {
     scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
-    const scree_sleep_limits limits = limits_of(c->model, state);
     scree_status status = SCREE_OK;
     if (sleep->asleep && !sleep->moving) {
         status = make_room(state, error);
@@ -384,21 +374,68 @@ static scree_status decide(const scree_context *c, scree_error *error)
     }
     if (!status && sleep->asleep && (!sleep->listed || sleep->bodies != state->changes))
         status = scree_neighbours_refresh(c->model, state, c->work, error);
-    if (!may_sleep(c, &limits)) {
-        wake_all(c);
-        return status;
-    }
-    if (!status) status = make_room(state, error);
+    return status;
+}
+
+/// Whether none may sleep in this step, or those that do fell asleep under another gravity.
+static bool all_wake(const scree_context *c)
+{
+    const scree_sleep_limits limits = limits_of(c->model, c->state);
+    const scree_sleep *sleep = scree_sleep_of(c->state);
+    return !may_sleep(c, &limits) || memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) != 0;
+}
+
+static scree_status all_will_wake(const scree_context *c, bool *wanted, scree_error *error)
+{
+    (void)error;
+    *wanted = scree_sleep_of(c->state)->total > 0 && all_wake(c);
+    return SCREE_OK;
+}
+
+static scree_status wake(const scree_context *c, scree_error *error)
+{
+    const scree_sleep_limits limits = limits_of(c->model, c->state);
+    scree_sleep *sleep = scree_sleep_of(c->state);
+    (void)error;
+    if (all_wake(c)) wake_all(c);
+    if (may_sleep(c, &limits)) memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
+    return SCREE_OK;
+}
+
+static scree_status decide(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    const scree_sleep_limits limits = limits_of(c->model, state);
+    sleep->found = 0;
+    if (!may_sleep(c, &limits)) return SCREE_OK;
+    scree_status status = make_room(state, error);
     if (status) return status;
-    follow_gravity(c);
     size_t awake;
     (void)scree_moving_rows(state, &awake);
-    sleep->awake_steps += awake;
-    sleep->steps++;
     size_t found = mark_waking(c, &limits);
     if (state->evaluations % FALL_EVERY == 0) found += mark_falling(c, &limits);
-    if (found > 0) change(c);
-    return status;
+    int64_t all[] = {(int64_t)awake, (int64_t)found};
+    scree_comm_add(state, all, 2);
+    sleep->awake_steps += (uint64_t)all[0];
+    sleep->steps++;
+    sleep->found = (uint64_t)all[1];
+    return SCREE_OK;
+}
+
+/// Pairs that are moved have both bodies here then.
+static scree_status some_are_found(const scree_context *c, bool *wanted, scree_error *error)
+{
+    (void)error;
+    *wanted = scree_sleep_of(c->state)->found > 0;
+    return SCREE_OK;
+}
+
+static scree_status change_found(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    if (scree_sleep_of(c->state)->found > 0) change(c);
+    return SCREE_OK;
 }
 
 // ---- the module ---------------------------------------------------------------------------------------------------
@@ -472,7 +509,7 @@ static const scree_field fields[] = {
     WALL(force, "of all that sleep on each wall of the case that stands, in units of sleep/force_unit"),
     WALL(torque, "the same about its centre, in units of sleep/wall_torque_unit"),
     BODY(asleep, uint8_t, "asleep", SCREE_FIELD_UINT8, 1, "1", "1: the body sleeps", .snapshot = true,
-         SCREE_RANGE(0, 1)),
+         .ghosts = SCREE_GHOSTS_KEEP, SCREE_RANGE(0, 1)),
     BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1", "steps for which it has been quiet"),
     BODY(resting, scree_resting, "resting", SCREE_FIELD_INT64, 7, "1",
          "of a body that sleeps, from others that do and walls that stand: force in units of sleep/force_unit, torque "
@@ -492,13 +529,18 @@ static const scree_field fields[] = {
     ONE(awake_steps, SCREE_FIELD_UINT64, 1, "1", "steps of all bodies that were awake, since some might sleep"),
     ONE(steps, SCREE_FIELD_UINT64, 1, "1", "steps since then"),
     DERIVED(count, "bodies that sleep"),
+    DERIVED(total, "the same of all processes"),
     DERIVED(changes, "times that some fell asleep or woke"),
     DERIVED(moving_count, "rows that are awake"),
     DERIVED(listed, "1: they are listed"),
     DERIVED(bodies, "changes of the bodies, then"),
+    DERIVED(found, "bodies that fall asleep or wake in this step"),
 };
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = decide}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = list},
+                                    {SCREE_PHASE_DECIDE, .run = wake, .whole = all_will_wake},
+                                    {SCREE_PHASE_DECIDE, .run = decide},
+                                    {SCREE_PHASE_DECIDE, .run = change_found, .whole = some_are_found}};
 
 static bool told(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME])
 {
@@ -522,8 +564,9 @@ const scree_module scree_module_sleep = {
     .begin = begin,
     .derive = derive,
     .passes = passes,
-    .pass_count = 1,
+    .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .work = work,
     .columns = SCREE_RESULTS(columns, sample),
     .results = SCREE_RESULTS(results, tell),

@@ -337,6 +337,7 @@ scree_status scree_prescribed_move(const scree_context *c, scree_error *error)
     for (uint64_t k = 0; k < all->listed; k++)
         if (state->held[all->row[k]])
             state->largest_speed = fmax(state->largest_speed, move_body(state, all->row[k], list));
+    scree_comm_maximum(state, &state->largest_speed, 1);
     // The list of neighbours has reckoned with the speeds of the kick.
     c->work->budget -= state->step_size * (state->largest_speed - before);
     take_half_work(state);

@@ -7,7 +7,8 @@
 
 typedef scree_imposed_gradient own;
 
-const scree_group scree_imposed_nodes = {"node", "b", offsetof(own, count), offsetof(own, capacity)};
+const scree_group scree_imposed_nodes = {
+    .row = "node", .symbol = "b", .count_offset = offsetof(own, count), .capacity_offset = offsetof(own, capacity)};
 
 #define ONE(...) SCREE_FIELD_ONE(imposed_gradient, own, __VA_ARGS__)
 static const scree_field fields[] = {

@@ -30,10 +30,14 @@ typedef enum scree_field_rows {
 } scree_field_rows;
 
 /// Arrays of a module that have one length: where in its struct their number of rows and their capacity lie (size_t).
+/// Rows are the same in all parts of a sample (comm/parts.h), unless they are of pairs of bodies: then they go with
+/// these, and in a part `total` of the struct counts those of all processes.
 typedef struct scree_group {
     const char *row;    ///< what messages call a row: "node"
     const char *symbol; ///< of their number in docs/output.md: "h"
     size_t count_offset, capacity_offset;
+    bool pairs;          ///< one array, each row of which begins with the ids of two bodies, in the order of these
+    size_t total_offset; ///< of pairs: where their number in all parts lies (size_t, derived)
 } scree_group;
 
 /// Upper ends of a range that are not numbers but follow from the state or the model.

@@ -65,8 +65,8 @@ struct scree_module {
     /// A body is about to be taken out: what refers to it by its id ends. Its row is still there. NULL: nothing does.
     void (*forget)(scree_state *state, uint32_t id);
 
-    /// Renews what it derives from places and angles for contacts: when a neighbour list is made. In a step its pass
-    /// does so. NULL: nothing.
+    /// Renews what it derives from places and angles for contacts, or from rows: when a neighbour list is made, and in
+    /// a part when it is taken. In a step its pass does so. NULL: nothing.
     void (*derive)(scree_state *state);
 
     /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input

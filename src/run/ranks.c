@@ -132,6 +132,13 @@ void scree_ranks_fail(const scree_run_options *options, const scree_error *error
 
 // ---- whole and part ----------------------------------------------------------------------------------------------
 
+/// What follows from the rows.
+static void derive(scree_state *state)
+{
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->derive) scree_modules[m]->derive(state);
+}
+
 scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
@@ -142,7 +149,10 @@ scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
         status = scree_error_set(error, SCREE_ERROR_INPUT,
                                  "the processes have made different samples of the same case: their machines or "
                                  "libraries differ");
-    return status ? status : scree_parts_spread(state, &s->work, error);
+    derive(state);
+    if (!status) status = scree_parts_spread(state, &s->work, error);
+    derive(state);
+    return status;
 }
 
 scree_status scree_ranks_gather(scree_simulation *s, scree_error *error)

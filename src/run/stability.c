@@ -20,6 +20,7 @@
 #include "comm/comm.h"
 #include "contact/deformation.h"
 #include "module/key_rows.h"
+#include "run/ranks.h"
 #include "run/stage.h"
 #include "search/neighbours.h"
 #include "specimen/from_state.h"
@@ -115,10 +116,8 @@ static uint64_t bonds_standing(const scree_state *state)
 /// Bonds are counted when some have broken, or pairs have come or gone.
 static bool bonds_have_changed(const scree_state *state, memory *all)
 {
-    int64_t number[] = {(int64_t)scree_bonds_of(state)->count, (int64_t)scree_persistent(state)->count};
     if (scree_bonds_of(state)->made == 0) return false;
-    scree_comm_add(state, number, 2);
-    const uint64_t now = (uint64_t)number[0] << 32 | (uint64_t)number[1];
+    const uint64_t now = (uint64_t)scree_bonds_of(state)->count << 32 | scree_persistent_total(state);
     if (now == all->looked) return false;
     all->looked = now;
     return has_changed(all->bonds, bonds_standing(state));
@@ -230,14 +229,15 @@ scree_status scree_stability_check(scree_simulation *s, scree_error *error)
     memory *all = memory_of(&s->state);
     checked c = {.step = 0};
     if (!all->asked) return SCREE_OK;
-    scree_status status = SCREE_OK;
+    scree_status status = scree_ranks_gather(s, error);
+    if (status) return status;
     if (matters(s)) {
         const bool told = own_numbers(s)->told && s->state.step == s->state.stage.first_step;
         status = open_check(s, &c, error);
         if (!status && told) status = find_limits(&c, &all->step, &all->softness, error);
         if (!status) status = judge(s, &c, error);
         all->contacts = c.specimen.contact_count;
-        all->bonds = bonds_standing(&s->state);
+        all->bonds = scree_bonds_standing(&s->state);
         scree_specimen_destroy(&c.specimen);
     }
     // What stops the run stays asked for: it stops again.

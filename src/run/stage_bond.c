@@ -241,4 +241,5 @@ const scree_module scree_module_bond = {
     .rules = rules,
     .numbers = &numbers,
     .stage = &stage_face,
+    .spreads = true,
 };

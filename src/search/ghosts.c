@@ -23,6 +23,7 @@
 #include "comm/comm.h"
 #include "comm/parts.h"
 #include "state/periodic.h"
+#include "state/persistent.h"
 
 #include <math.h>
 #include <string.h>
@@ -132,7 +133,7 @@ static scree_status append_ghosts(const scree_state *state, scree_work *work, co
 /// What is offered to other processes: the boxes around their bodies.
 typedef struct neighbourhood {
     double (*box)[6]; ///< m, of each process: lowest x, y, z, then highest
-    double reach;     ///< m, of the largest body and the skin
+    double reach;     ///< m, of the largest body, the skin, and the largest gap of a held pair
 } neighbourhood;
 
 /// Whether a body with this centre may touch one of the process.
@@ -191,7 +192,7 @@ static scree_status offer_ghosts(const scree_state *state, scree_work *work, con
 
 static scree_status make_parts(scree_state *state, scree_work *work, const ghost_range *range, scree_error *error)
 {
-    neighbourhood n = {.reach = range->radius + work->skin};
+    neighbourhood n = {.reach = range->radius + work->skin + scree_persistent(state)->largest_gap};
     scree_status status = scree_allocate(&n.box, (size_t)scree_comm_size(), sizeof *n.box, error);
     if (status) return status;
     scree_parts_boxes(state, n.box);
@@ -239,8 +240,8 @@ bool scree_ghosts_nearest(const scree_state *state, const scree_work *work, uint
     return across;
 }
 
-scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent, const int shift[3], uint32_t *row,
-                              scree_error *error)
+scree_status scree_ghosts_row(const scree_state *state, scree_work *work, uint32_t parent, const int shift[3],
+                              uint32_t *row, scree_error *error)
 {
     scree_ghost_list *list = &work->ghosts;
     size_t low = 0, high = list->by_parent;
@@ -254,11 +255,11 @@ scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent
     for (; low < list->by_parent && list->ghost[low].parent == parent; low++) {
         const int32_t *found = list->ghost[low].shift;
         if (found[0] != shift[0] || found[1] != shift[1] || found[2] != shift[2]) continue;
-        *row = bodies + (uint32_t)low;
+        *row = (uint32_t)(state->count + low);
         return SCREE_OK;
     }
-    *row = bodies + (uint32_t)list->count;
-    return append_ghost(list, parent, shift, error);
+    *row = state->part ? SCREE_NO_ROW : (uint32_t)(state->count + list->count);
+    return state->part ? SCREE_OK : append_ghost(list, parent, shift, error);
 }
 
 void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])

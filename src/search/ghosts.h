@@ -16,10 +16,10 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
 bool scree_ghosts_nearest(const scree_state *state, const scree_work *work, uint32_t first, uint32_t second,
                           int shift[3], bool *of_second);
 
-/// Row of a ghost, which is made where there is none yet; then scree_comm_begin is due. bodies: number of them.
-/// Errors: memory.
-scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent, const int shift[3], uint32_t *row,
-                              scree_error *error) SCREE_MUST_USE;
+/// Row of a ghost of a body that is here. Where there is none it is made, and scree_comm_begin is due; in a part none
+/// can be made any more: SCREE_NO_ROW. Errors: memory.
+scree_status scree_ghosts_row(const scree_state *state, scree_work *work, uint32_t parent, const int shift[3],
+                              uint32_t *row, scree_error *error) SCREE_MUST_USE;
 
 /// Refills `chunk` with the pairs of a body and a ghost, each physical pair once. Errors: memory.
 scree_status scree_ghosts_search(const scree_state *state, const scree_work *work, scree_pair_chunk *chunk,

@@ -24,8 +24,8 @@ bool scree_held_changed(const scree_state *state, const scree_held_buffer *buffe
 void scree_held_drop(const scree_state *state, scree_pair_buffer *buffer);
 
 /// Finds the rows of all members, the nearest ghosts in a periodic cell, and makes ghosts where one is missing; to be
-/// called when the near pairs are found. Errors: memory; SCREE_ERROR_GUARD: a pair longer than half of the cell;
-/// SCREE_ERROR_INPUT: members that the law cannot hold.
+/// called when the near pairs are found. Errors: memory; SCREE_ERROR_GUARD: a pair longer than half of the cell, or
+/// longer by far than in the step before, in a part; SCREE_ERROR_INPUT: members that the law cannot hold.
 scree_status scree_held_find(const scree_model *model, scree_state *state, scree_work *work, scree_held_buffer *buffer,
                              scree_error *error) SCREE_MUST_USE;
 

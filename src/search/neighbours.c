@@ -20,6 +20,7 @@
 #include "state/case_walls.h"
 #include "state/deformation.h"
 #include "state/periodic.h"
+#include "state/persistent.h"
 #include "state/plates.h"
 #include "state/sleep.h"
 
@@ -328,7 +329,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     }
     scree_pairs_clear(pairs);
     scree_pair_sections_cut(model, state, work);
-    const size_t count = pairs->count, held = search->held.count;
+    const size_t count = pairs->count, held = scree_persistent_total(state);
     pairs->count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);

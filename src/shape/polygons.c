@@ -185,7 +185,7 @@ static const scree_group pool = {
     .capacity_offset = offsetof(own, capacity),
 };
 
-enum { FIRST, CORNERS, ROUNDING };
+enum { FIRST, CORNERS, ROUNDING, HEADING };
 static const scree_field fields[] = {
     [FIRST] = SCREE_FIELD_BODY(polygon, own, of, scree_corners, "first_corner", SCREE_FIELD_UINT32, 1, "1",
                                "place of its first corner in polygons/corner, where there are polygons",
@@ -200,6 +200,9 @@ static const scree_field fields[] = {
         "radius of its corners, where some are rounded: its outline lies so far outside of its corners",
         .only_dimension = 2, .optional = true, .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true,
         SCREE_RANGE_TO(SCREE_LIMIT_LARGEST_RADIUS)),
+    [HEADING] = SCREE_FIELD_BODY(polygon, own, heading, double, "heading", SCREE_FIELD_DOUBLE, 1, "rad",
+                                 "angle that ghosts in other processes are turned by", .role = SCREE_FIELD_DERIVED,
+                                 .only_dimension = 2, .optional = true, .ghosts = SCREE_GHOSTS_FOLLOW),
     SCREE_FIELD_GROUP(polygon, own, pool, corner, double[2], "polygons/corner", SCREE_FIELD_DOUBLE, 2, "m",
                       "corners in the frames of their bodies, counter-clockwise, from the centroid", .snapshot = true,
                       .optional = true),
@@ -288,6 +291,14 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
     return fmin(least + scree_rounding_of_row(p, row), bound);
 }
 
+static void turn_corners(const own *p, size_t row, double angle)
+{
+    const scree_corners of = p->of[row];
+    if (of.count == 0) return;
+    const Sleef_double_2 turn = Sleef_cinz_sincosd1_u10purec(angle);
+    scree_polygon_turn((int)of.count, (const double(*)[2])p->corner + of.first, turn.y, turn.x, p->posed + of.first);
+}
+
 /// Of all, or of those that are awake.
 static void pose_them(scree_state *state, bool all)
 {
@@ -297,11 +308,7 @@ static void pose_them(scree_state *state, bool all)
     if (all) count = state->count;
     for (size_t k = 0; k < count && p->of; k++) {
         const size_t row = moving ? moving[k] : k;
-        const scree_corners of = p->of[row];
-        if (of.count == 0) continue;
-        const Sleef_double_2 turn = Sleef_cinz_sincosd1_u10purec(state->angle[row]);
-        scree_polygon_turn((int)of.count, (const double(*)[2])p->corner + of.first, turn.y, turn.x,
-                           p->posed + of.first);
+        turn_corners(p, row, state->angle[row]);
     }
 }
 
@@ -321,14 +328,27 @@ static bool in_use(const scree_context *c)
     return some;
 }
 
+/// In a part, before ghosts are told.
+static scree_status tell_heading(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    if (!state->part || !scree_polygons_of(state)->of) return SCREE_OK;
+    scree_status status = scree_state_begin_field(state, &fields[HEADING], error);
+    if (!status) memcpy(scree_polygons_of(state)->heading, state->angle, state->count * sizeof *state->angle);
+    return status;
+}
+
 static scree_status pose(const scree_context *c, scree_error *error)
 {
+    const own *p = scree_polygons_of(c->state);
+    const size_t rows = scree_row_count(c->state, c->work);
     (void)error;
     pose_them(c->state, false);
+    for (size_t row = rows - c->work->ghosts.away; row < rows && p->of; row++) turn_corners(p, row, p->heading[row]);
     return SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, .run = pose}};
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = tell_heading}, {SCREE_PHASE_SEARCH, .run = pose}};
 
 /// Outlines that are stored.
 static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
@@ -394,8 +414,9 @@ const scree_module scree_module_polygon = {
     .check = check,
     .checksum = checksum,
     .passes = passes,
-    .pass_count = 1,
+    .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .spreads = true,
     .derive = scree_polygons_pose,
     .shape = &(const scree_shape){.dimension = 2,
                                   .elsewhere = "sphere",

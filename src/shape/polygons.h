@@ -6,6 +6,9 @@
 /// orientation. Posed corners, turned by that angle and relative to the centre, are derived: renewed in every step,
 /// before contacts.
 ///
+/// A part of a sample (comm/parts.h) has the pool of all bodies, of those that come too: corners do not change, so
+/// nothing of them goes from one process to another. Those of ghosts are turned by the heading that they follow in.
+///
 /// Where corners are rounded the corners of the pool are those of the core, and the outline lies a rounding outside of
 /// it (shape/rounding.h); centre, sizes, mass and inertia are those of the whole body.
 #ifndef SCREE_SHAPE_POLYGONS_H
@@ -26,6 +29,7 @@ typedef struct scree_polygons {
     size_t count, capacity; ///< of the pool, with those of bodies that are gone until it is full
     scree_corners *of;      ///< one a row; NULL: all bodies are round
     double *rounding;       ///< m, one a row, 0 of discs; NULL: all corners are sharp
+    double *heading; ///< rad, one a row: the angle, for ghosts in other processes; NULL: there are none (derived)
 } scree_polygons;
 
 static inline scree_polygons *scree_polygons_of(const scree_state *state)

@@ -17,6 +17,8 @@ const scree_group scree_persistent_group = {
     .symbol = "p",
     .count_offset = offsetof(own, count),
     .capacity_offset = offsetof(own, capacity),
+    .pairs = true,
+    .total_offset = offsetof(own, total),
 };
 
 #define MEMBER(name, type, meaning, member_, ...)                                                                      \
@@ -35,6 +37,8 @@ static const scree_field fields[] = {
                     "largest gap between the surfaces of a held pair", SCREE_RANGE(0, DBL_MAX)),
     SCREE_FIELD_ONE(persistent, own, changes, "persistent/changes", SCREE_FIELD_UINT64, 1, "1",
                     "held pairs that were added or removed", .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_ONE(persistent, own, total, "persistent/total", SCREE_FIELD_UINT64, 1, "1",
+                    "held pairs of all processes", .role = SCREE_FIELD_DERIVED),
 };
 
 static bool comes_before(const scree_persistent_member *a, uint32_t first, uint32_t second)
@@ -212,4 +216,5 @@ const scree_module scree_module_persistent = {
     .check = check,
     .checksum = checksum,
     .forget = forget,
+    .spreads = true,
 };

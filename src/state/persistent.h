@@ -4,6 +4,7 @@
 ///
 /// What a pair remembers is declared by its law (state/memory_fields.h); while a neighbour list stands it lies in
 /// work->pairs, and comes here with scree_contacts_save or when the list is made anew. Members are ordered by ids.
+/// Of a part they lie with the process that evaluates them, or while no list stands with those of both bodies.
 #ifndef SCREE_STATE_PERSISTENT_H
 #define SCREE_STATE_PERSISTENT_H
 
@@ -22,6 +23,7 @@ typedef struct scree_persistent_member {
 typedef struct scree_persistent_list {
     scree_persistent_member *member; ///< count, by (first, second)
     size_t count, capacity;
+    size_t total;               ///< of a part: members of all processes (derived)
     double largest_deformation; ///< m, of all members: departure from rest, tangential displacement
     double largest_gap;         ///< m, between the surfaces of a member; 0 where all overlap
     uint64_t changes;           ///< members added and removed in this process (derived)
@@ -32,6 +34,12 @@ extern const scree_group scree_persistent_group;
 static inline scree_persistent_list *scree_persistent(const scree_state *state)
 {
     return state->own[SCREE_SLOT_persistent];
+}
+
+/// Members, of a part those of all processes.
+static inline size_t scree_persistent_total(const scree_state *state)
+{
+    return state->part ? scree_persistent(state)->total : scree_persistent(state)->count;
 }
 
 /// Number of the member of two bodies; SIZE_MAX when they are none. Cost: logarithmic.

@@ -36,6 +36,7 @@ void scree_sleep_list_moving(scree_state *state)
         sleep->count += sleep->asleep[row] != 0;
         if (!sleep->asleep[row] && sleep->moving) sleep->moving[sleep->moving_count++] = (uint32_t)row;
     }
+    if (!state->part) sleep->total = sleep->count;
 }
 
 void scree_sleep_list(scree_state *state)
@@ -68,6 +69,6 @@ void scree_sleep_end(scree_state *state)
         memset(sleep->push[row], 0, sizeof sleep->push[row]);
     }
     sleep->overlap = 0;
-    sleep->count = 0;
+    sleep->count = sleep->total = 0;
     sleep->changes++;
 }

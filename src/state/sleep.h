@@ -40,11 +40,13 @@ typedef struct scree_sleep {
     uint64_t awake_steps; ///< steps of all bodies that were awake, since the first could sleep
     uint64_t steps;       ///< steps since then
     uint64_t count;       ///< bodies that sleep (derived)
+    uint64_t total;       ///< the same of all processes (derived)
     uint64_t changes;     ///< times that some fell asleep or woke in this process (derived)
     uint32_t *moving;     ///< rows of those that are awake; moving_count of them, where some sleep (derived)
     uint64_t moving_count;
     uint64_t listed; ///< 1: it is of the list of pairs, and of these
     uint64_t bodies; ///< changes of the state, then (derived)
+    uint64_t found;  ///< bodies that fall asleep or wake in this step, of all processes (derived)
 } scree_sleep;
 
 static inline scree_sleep *scree_sleep_of(const scree_state *state)

@@ -180,14 +180,126 @@ stages:
   - {stage: pour, name: more, height: 6 mm}
 $rest
 EOF
+# Bonds with gaps of half a radius in a cell that is sheared until they break, and part; a lattice that is pulled apart, of
+# which nothing moves in some parts at first.
+cat >bonded.yaml <<EOF
+scree: 1
+name: bonded
+seed: 9
+materials: [{name: rock, young_modulus: 10 MPa, normal_stiffness: 1e4 N/m, stiffness_ratio: 0.5, damping_ratio: 0.1, density: 2500 kg/m3, friction: 0.5}]
+particles: {shape: disc, material: rock, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 150}
+contact: {law: linear}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: xy}
+stages:
+  - {stage: prepare, method: gas, solid_fraction: 60 %}
+  - {stage: bond, gap_tolerance: 0.5 mm, tensile_strength: 0.4 N, shear_strength: 0.5 N}
+  - {stage: deform, velocity_gradient: {xy: 60 1/s, yy: -10 1/s}, strain: 15 %}
+$rest
+EOF
+cat >strip.yaml <<EOF
+scree: 1
+name: strip
+seed: 10
+materials: [{name: rock, normal_stiffness: 1e7 N/m, stiffness_ratio: 0.5, damping_ratio: 0.02, density: 2000 kg/m3, young_modulus: 1 GPa, friction: 0.5}]
+contact: {law: linear}
+particles: {shape: disc, material: rock, count: 120, distribution: equal, radius: 1 mm, thickness: 10 mm}
+selections:
+  - {select: band, name: floor, axis: y, measured: low, from: 0 mm, to: 3 mm}
+  - {select: band, name: lid, axis: y, measured: high, from: 0 mm, to: 3 mm}
+loads:
+  - {load: background_damping, translation: 0.1, rotation: 0.1}
+  - {load: prescribed, selection: floor, velocity_x: 0, velocity_y: 0, spin_z: 0}
+  - {load: prescribed, selection: lid, velocity_x: 0, velocity_y: 1 m/s, spin_z: 0}
+stages:
+  - {stage: prepare, method: hexagonal, aspect_ratio: 2}
+  - {stage: bond, tensile_strength: 100 N, shear_strength: 25 N, scatter: normal, scatter_deviation: 0.15}
+  - {stage: relax, name: pull, boundary: none, duration: 0.4 ms}
+$rest
+EOF
+# Polygons, and discs among them, poured on a step, sharp or rounded; with a potential, in a sheared cell.
+cat >heap.yaml <<EOF
+scree: 1
+name: heap
+seed: 12
+gravity: [0, -9.81]
+materials: [{name: stone, young_modulus: 0.5 MPa, density: 2500 kg/m3, friction: 0.5, damping_constant: 0.5}]
+particles:
+  count: 30
+  species: [{name: angular, material: stone, shape: polygon, radius_min: 0.8 mm, radius_max: 1.3 mm, share: 70 %, axis_ratio: 1.5}, {name: round, material: stone, shape: disc, distribution: equal, radius: 1 mm, share: 30 %}]
+contact: {law: polygon_overlap}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+walls: [{shape: plane, name: floor, point: [0, 0], normal: [0, 1]}, {shape: box, name: step, side: outside, lower: [-9 mm, -1 mm], upper: [-3 mm, 2 mm]}]
+sources:
+  - {source: line, name: row, start: [-6 mm, 10 mm], end: [6 mm, 10 mm], interval: 0.7 ms, velocity: [0.1, -0.4], above: 6 mm}
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, count: 30}
+  - {stage: relax, name: fall, duration: 8 ms}
+$rest
+EOF
+cat >cell.yaml <<EOF
+scree: 1
+name: cell
+seed: 13
+materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5}]
+particles: {shape: polygon, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 70}
+contact: {law: polygon_potential}
+integrator: {scheme: velocity_verlet, step_fraction: 0.4}
+boundary: {periodic: xy}
+stages:
+  - {stage: prepare, method: gas, solid_fraction: 60 %}
+  - {stage: confine, pressure: 50 kPa, unbalanced_limit: 0.9}
+  - {stage: deform, velocity_gradient: {xy: 200 1/s}, stress: {yy: 50 kPa}, strain: 8 %}
+$rest
+EOF
+sed 's/name: heap/name: rounded/; s/shape: polygon,/shape: polygon, rounding: 0.2,/; s/polygon_overlap/hertz_mindlin, tangential_history: rescaled/; s/, damping_constant: 0.5//' heap.yaml >rounded.yaml
+# Grains that fall asleep where they lie, and wake when others fall on them. Gear's scheme, whose velocities lead, on a table
+# that shakes, of which not all parts have the fastest body.
+cat >nap.yaml <<EOF
+scree: 1
+name: nap
+seed: 14
+gravity: [0, -9.81]
+materials: [{name: glass, young_modulus: 0.5 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.3}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 45}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.4}
+loads: [{load: background_damping, translation: 0.5, rotation: 0.5}]
+walls: [{shape: plane, name: floor, point: [0, 0], normal: [0, 1]}]
+sources: [{source: line, name: row, start: [-5 mm, 8 mm], end: [5 mm, 8 mm], interval: 2 ms, velocity: [0, -0.2], above: 5 mm}]
+stages:
+  - {stage: prepare, method: empty}
+  - {stage: pour, count: 45, sleep_window: 2 ms, sleep_force: 0.1, sleep_motion: 0.05}
+  - {stage: relax, name: fall, duration: 2 ms}
+$rest
+EOF
+cat >gear.yaml <<EOF
+scree: 1
+name: gear
+dimension: 3
+seed: 15
+gravity: [0, 0, -9.81]
+materials: [{name: rock, young_modulus: 1 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.5}]
+particles: {shape: sphere, material: rock, distribution: equal, radius: 1.5 mm, count: 64}
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: gear, step_fraction: 0.3}
+walls: [{shape: plane, name: floor, point: [0, 0, 0], normal: [0, 0, 1], motion: vibration, amplitude: [0, 0, 1 mm], frequency: 100 1/s}]
+stages:
+  - {stage: prepare, method: cubic}
+  - {stage: relax, name: press, duration: 8 ms, walls: move}
+$rest
+EOF
+sed -i "s/cells: no/cells: no, orientation: yes/" gear.yaml
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid path block pour rain; do
+for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
         same "$(checksum many)" "$(checksum one-$name)" "$name on $ranks processes"
         cmp -s many/series.csv one-$name/series.csv || complain "series.csv of $name on $ranks processes differs"
+        [ ! -e one-$name/breaks.csv ] || cmp -s many/breaks.csv one-$name/breaks.csv || complain "breaks.csv of $name on $ranks processes differs"
         grep -q "process 0 of $ranks: " many/log.txt || complain "$ranks processes did not compute $name together"
     done
     expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
@@ -204,9 +316,15 @@ same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
 refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@:2}"; same "$(grep -c 'cannot be spread' <<<"$output")" 1 "one message: $output"; [ -e no ] && complain "a refused run has made its folder"; }
 refused "boundary 'pressure'" biaxial --quick -o no
 refused "stage 'collide'" restitution -o no
-refused "law 'polygon_overlap'" pile-relax --quick -o no
-refused "acts in a stage: 'sleep'" pour.yaml --set stages.pour.sleep_window="1 ms" -o no
+refused "acts in a stage: 'deformation'" ddem-uniaxial --quick -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
+
+# --- bonds broke, and pairs have parted behind it
+for name in bonded strip; do
+    checks=$((checks + 1)); [ $(($("$scree" get one-$name bonds_broken_tension) + $("$scree" get one-$name bonds_broken_shear))) -gt 0 ] || complain "no bond of $name broke"
+done
+
+checks=$((checks + 1)); awk -v awake="$("$scree" get one-nap mean_awake)" 'BEGIN {exit !(awake < 40)}' || complain 'nothing of nap slept'
 
 # --- what was poured, waited and was taken out; errors tell of the whole sample; other numbers of processes go on
 for result in spout_waits row_waits row_layers outlet_outflow; do
