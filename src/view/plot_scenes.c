@@ -18,11 +18,11 @@ static const struct field_entry {
     bool compares; ///< since the start
 } fields[] = {
     [FIELD_ROTATION] = {"rotation", " (degrees), counter-clockwise positive", SCREE_COLOUR_DIVERGING, true},
-    [FIELD_SPIN] = {"spin", " (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING},
-    [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude", " (rad/s)", SCREE_COLOUR_SEQUENTIAL},
-    [FIELD_SPEED] = {"speed", " (mm/s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_SPIN] = {"spin", " (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING, false},
+    [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude", " (rad/s)", SCREE_COLOUR_SEQUENTIAL, false},
+    [FIELD_SPEED] = {"speed", " (mm/s)", SCREE_COLOUR_SEQUENTIAL, false},
     [FIELD_DISPLACEMENT] = {"displacement", " (mm)", SCREE_COLOUR_SEQUENTIAL, true},
-    [FIELD_BIRTH] = {"time of birth", " (s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_BIRTH] = {"time of birth", " (s)", SCREE_COLOUR_SEQUENTIAL, false},
 };
 
 typedef struct scene_row {
