@@ -200,11 +200,12 @@ static void it_slides_over_a_joint(void **unused)
 {
     (void)unused;
     scree_case *c;
-    const char *const overrides[] = {
-        "materials.0.friction=0",
+    static const char joint[] =
         "walls=[{shape: polygon, corners: [[0.4, -0.1], [0.5, -0.1], [0.5, 0], [0.4, 0]]}, {shape: polygon, corners: "
-        "[[0.5, -0.1], [0.6, -0.1], [0.6, 0], [0.5, 0]]}]",
-        "stages.0.bodies=[{position: [0.48, 9.523e-3 m], velocity: [0.2, 0]}]", "stages.1.duration=0.2 s"};
+        "[[0.5, -0.1], [0.6, -0.1], [0.6, 0], [0.5, 0]]}]";
+    const char *const overrides[] = {"materials.0.friction=0", joint,
+                                     "stages.0.bodies=[{position: [0.48, 9.523e-3 m], velocity: [0.2, 0]}]",
+                                     "stages.1.duration=0.2 s"};
     scree_simulation s = open_with(edge_text, overrides, COUNT_OF(overrides), &c);
     const double worst = simulation_finish(&s), weight = 10 * scree_body_mass(&s.state, 0);
     print_message("at %.6f m, velocity %.9f m/s, spin %.3g rad/s, angle %.3g, residual %.2g\n", s.state.row[0].x,
