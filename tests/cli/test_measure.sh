@@ -66,6 +66,9 @@ expect 0 'mean over 3 snapshots' "$scree" measure pile1 --at mean:3 --no-figures
 
 # What cannot be.
 expect 2 '--element: .* larger than the sample.*take fewer grains' "$scree" measure pile1 --element 5000
+# A length is a length, and not as many grains.
+expect 0 '^element_side +0\.005 ' "$scree" measure pile1 --element '5 mm' --no-figures -o few
+expect 2 '--element: an element of 1 m .*larger than the sample' "$scree" measure pile1 --element '1 m'
 expect 2 "--fields: there is no field 'stres'.*density" "$scree" measure pile1 --fields stres
 expect 2 '--cuts: .*relative heights' "$scree" measure pile1 --cuts 0.5,1.5
 expect 2 '--grid: .*100x50' "$scree" measure pile1 --grid 10

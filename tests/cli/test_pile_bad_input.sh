@@ -54,6 +54,9 @@ changed() {
     expect 2 "$2" "$scree" check bad.yaml
 }
 changed 's/outline: ellipse.*/&\n  axis_ratio: 0.5/' "particles\.axis_ratio: '0\.5' is too small .accepted: 1 to 20"
+changed 's/corners_min: 6/corners_min: 9/' 'particles\.corners_max: 8 is less than corners_min, 9$'
+changed 's/corners_max: 8/corners_max: 1000/' "particles\.corners_max: '1000' is too large .accepted: 3 to 32"
+same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
 changed 's/radius_min: .*/radius_min: 0 mm/' "particles\.radius_min: '0 mm' is too small"
 changed 's/radius_min: .*/radius_min: -1 mm/' "particles\.radius_min: '-1 mm' is too small"
 changed 's/radius_min: .*/radius_min: 5 mm/' "particles\.radius_min: '5 mm' is larger than radius_max"
