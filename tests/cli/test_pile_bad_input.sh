@@ -69,6 +69,11 @@ changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: s
 changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
 changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'
 
+# Without sources the keys of quick that set some of theirs are wrong, and nothing else is near to them.
+sed '/^sources:/,/^$/d' good.yaml >bad.yaml
+expect 2 'stages\.1\.stage: there is nothing that it could pour from: give .sources' "$scree" check bad.yaml
+same "$(grep -c 'the case has no list of sources$' <<<"$output")" 2 "keys of a list that is not there: $output"
+
 # Grains that find no room, and what only a run can know.
 small=(--quick --set particles.count=6 --no-figures --set output.paraview=no)
 sed 's/^sources:/  - {shape: box, name: cage, lower: [-1 mm, -5 mm], upper: [1 mm, 60 cm]}\nsources:/' good.yaml >bad.yaml

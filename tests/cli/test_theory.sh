@@ -145,6 +145,7 @@ expect 2 '--nu: .*at most 0.5' "$scree" theory layer --nu 0.6
 expect 2 '--base: .*accepted: bonded' "$scree" theory layer --base bondd
 expect 2 '--thickness: .*above 0' "$scree" theory layer --thickness -1
 expect 2 '--force: .*above 0' "$scree" theory flamant --force 0
+expect 2 '--depth: .*above 0' "$scree" theory flamant --depth 0
 expect 2 '--eta: ' "$scree" theory bcc --phi 28 --eta 1
 
 finish 'closed forms'
