@@ -93,6 +93,16 @@ expect 3 "source 'spout' has been blocked .*raise the source, pour fewer particl
 expect 0 'stopped' "$scree" get blocked status
 expect 0 '' "$scree" run bad.yaml "${small[@]}" --set sources.spout.place='[0, 10 cm]' --set particles.count=1 --quiet --set stages.settle.duration='1 ms' -o fine
 
+# A funnel whose opening of 4 mm is narrower than its discs: a run that ends says so, one that goes on pouring stops.
+funnel=(--quick --no-figures --quiet --set output.paraview=no --set stages.pour.rest_time='50 ms' --set stages.settle.duration='1 ms'
+    --set walls.left.corners='[[-8 mm, 156 mm], [-2 mm, 156 mm], [-32 mm, 186 mm], [-38 mm, 186 mm]]'
+    --set walls.right.corners='[[2 mm, 156 mm], [8 mm, 156 mm], [38 mm, 186 mm], [32 mm, 186 mm]]'
+    --set sources.belt.start='[-3 mm, 17 cm]' --set sources.belt.end='[3 mm, 17 cm]')
+expect 0 "warning: wall 'plate' .measure\.plate. bears 0\.0 % of the pile.*funnel, it has clogged.*opening wider" \
+    "$scree" run pile-hopper "${funnel[@]}" --set particles.count=4 -o clogged
+expect 3 "source 'belt' has been blocked .*the pile has reached the source, or a funnel has clogged" \
+    "$scree" run pile-hopper "${funnel[@]}" --set particles.count=40 --set stages.pour.patience='0.1 s' -o choked
+
 # A polygon larger than its domain, and one that strikes too hard.
 cat >big.yaml <<'CASE'
 scree: 1
