@@ -123,6 +123,11 @@ CASE
 expect 2 "particle 0 at .* is in wall 'vessel'.*move the wall" "$scree" run big.yaml --no-figures -o big
 sed 's/method: bodies.*}/method: gas, width: 4 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
 expect 2 "^bad\.yaml:13:[0-9]+: stages\.0\.width: .*does not fit into a box 0\.04 m wide" "$scree" check bad.yaml
+sed 's/radius: 5 cm/radius: 1.9 cm, axis_ratio: 4/; s/method: bodies.*}/method: gas, width: 4 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
+expect 2 'stages\.0\.width: a particle with a bounding circle of radius 0\.0[0-9]* m does not fit into a box 0\.04 m wide and' "$scree" run bad.yaml --no-figures -o long
+sed 's/^walls:/boundary: {periodic: xy}/; /shape: box/d; s/, boundary: walls//; s/^gravity: .*/gravity: [0, 0]/; s/radius: 5 cm/radius: 1 cm/
+    s/method: bodies.*}/method: gas, width: 3 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
+expect 2 'stages\.0\.width: the periodic cell is only 0\.03 m wide along x, .*two of the largest particles side by side .0\.04 m.: make it wider' "$scree" check bad.yaml
 sed 's/radius: 5 cm/radius: 1 cm/; s/young_modulus: 1e7/young_modulus: 1e4/; s/\[{position: \[2 cm, 2 cm\]}\]/[{position: [2 cm, 2 cm], velocity: [0, -20]}]/; s/step: 1e-6/step: 1e-5/' big.yaml >bad.yaml
 expect 3 'particle 0 at .*guard\.overlap.*try a stiffer material' "$scree" run bad.yaml --no-figures -o deep
 expect 0 'stopped' "$scree" get deep status
