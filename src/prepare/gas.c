@@ -245,7 +245,8 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 0);
     const double depth = packing->dimension == 3 ? box->depth : INFINITY;
     if (fmin(fmin(box->width, depth), box->height) < 2 * largest)
-        return scree_prepare_refuse_box(model, stage, packing, largest, error);
+        return scree_prepare_refuse_box(model, stage, largest, (const double[]){box->width, box->depth, box->height},
+                                        error);
     return fill(model, stage, packing, largest, fraction, error);
 }
 

@@ -277,7 +277,8 @@ static scree_status check_box(const scree_model *model, const scree_config_stage
     const double largest = scree_packing_largest(packing);
     const bool in_3d = packing->dimension == 3;
     if (fmin(fmin(box->width, box->height), in_3d ? box->depth : INFINITY) < 2 * largest)
-        return scree_prepare_refuse_box(model, stage, packing, largest, error);
+        return scree_prepare_refuse_box(model, stage, largest, (const double[]){box->width, box->depth, box->height},
+                                        error);
     return check_sides(model, stage, packing, error);
 }
 

@@ -28,18 +28,17 @@ static const char *key_of_side(const scree_model *model, const scree_config_stag
     return axis == 1 && model->dimension == 3 && !isnan(prepare->depth) ? "depth" : usual;
 }
 
-scree_status scree_prepare_refuse_box(const scree_model *model, const scree_config_stage *stage,
-                                      const scree_packing *packing, double largest, scree_error *error)
+scree_status scree_prepare_refuse_box(const scree_model *model, const scree_config_stage *stage, double largest,
+                                      const double box[3], scree_error *error)
 {
-    const scree_box *box = &packing->box;
-    const bool in_3d = model->dimension == 3, shallow = in_3d && box->depth < 2 * largest;
-    const int axis = box->width < 2 * largest ? 0 : shallow ? 1 : 2;
+    const bool in_3d = model->dimension == 3;
+    const int axis = box[0] < 2 * largest ? 0 : in_3d && box[1] < 2 * largest ? 1 : 2;
     char deep[40] = "";
-    if (in_3d) (void)snprintf(deep, sizeof deep, ", %g m deep", box->depth);
+    if (in_3d) (void)snprintf(deep, sizeof deep, ", %g m deep", box[1]);
     return scree_prepare_error(error, model, stage, key_of_side(model, stage, axis, "solid_fraction"),
                                "a particle %s %g m does not fit into a box %g m wide%s and %g m high",
                                largest > model->radius_max ? "with a bounding circle of radius" : "of radius", largest,
-                               box->width, deep, box->height);
+                               box[0], deep, box[2]);
 }
 
 scree_status scree_prepare_refuse_side(const scree_model *model, const scree_config_stage *stage, int axis,

@@ -3,7 +3,6 @@
 #define SCREE_PREPARE_METHODS_H
 
 #include "model/model.h"
-#include "prepare/prepare.h"
 
 /// Of the key `solid_fraction`, which several methods share.
 #define SCREE_SOLID_FRACTION_MEANING                                                                                   \
@@ -14,10 +13,10 @@
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
                                  const char *key, const char *format, ...) SCREE_PRINTF(5, 6);
 
-/// The error that the box of a packing is too small for its largest body, of this radius or bounding radius [m]; names
-/// the side that the case gives, else the solid fraction.
-scree_status scree_prepare_refuse_box(const scree_model *model, const scree_config_stage *stage,
-                                      const scree_packing *packing, double largest, scree_error *error);
+/// The error that a box (width, depth, height [m]; no depth in 2D) is too small for the largest body, of this radius or
+/// bounding radius [m]; names the side that the case gives, else the solid fraction.
+scree_status scree_prepare_refuse_box(const scree_model *model, const scree_config_stage *stage, double largest,
+                                      const double box[3], scree_error *error);
 
 /// The error that a sample that repeats itself is, or will be, too narrow along an axis: `side` where more than
 /// `needed` [m] is wanted. Names the side that the case gives, else the aspect ratio.
