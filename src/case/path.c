@@ -67,7 +67,8 @@ static scree_node *create_section(scree_reader *creator, scree_node *parent, con
 static bool enter_element(scree_target *target, const char **path)
 {
     const scree_key *list = target->key;
-    if (!target->node || target->node->kind != SCREE_NODE_LIST) {
+    target->no_list = !target->node || target->node->kind != SCREE_NODE_LIST;
+    if (target->no_list) {
         (void)snprintf(target->reason, sizeof target->reason, "the case has no list of %s", list->name);
         return false;
     }
@@ -192,17 +193,18 @@ static void consider_section(search *s, const scree_section *section, const scre
     }
 }
 
+/// In a list that the case does not have nothing is near.
 static void refuse_path(scree_reader *reader, const char *path, const scree_node *value, scree_place place,
-                        const char *reason)
+                        const scree_target *target)
 {
     if (scree_problem_omit(reader, place)) return;
     search s = {.wanted = path, .score = SIZE_MAX};
     const char *dot = strrchr(path, '.');
     s.wanted_tail = dot ? dot + 1 : path;
     for (const char *rest = path; *rest && !s.by_index;) s.by_index = is_index(next_part(&rest));
-    consider_section(&s, scree_schema(), reader->root, "");
-    scree_problem_add(reader, place, path, value->text, s.best, "%s%s%s%s", reason, s.best[0] ? "; did you mean '" : "",
-                      s.best, s.best[0] ? "'?" : "");
+    if (!target->no_list) consider_section(&s, scree_schema(), reader->root, "");
+    scree_problem_add(reader, place, path, value->text, s.best, "%s%s%s%s", target->reason,
+                      s.best[0] ? "; did you mean '" : "", s.best, s.best[0] ? "'?" : "");
 }
 
 void scree_path_set(scree_reader *reader, const char *path, const scree_node *value, scree_place place)
@@ -216,7 +218,7 @@ void scree_path_set(scree_reader *reader, const char *path, const scree_node *va
         found = false;
     }
     if (!found) {
-        refuse_path(reader, path, value, place, target.reason);
+        refuse_path(reader, path, value, place, &target);
         return;
     }
     if (!target.parent) return; // what should be a section is not: noted when the whole is read

@@ -13,6 +13,7 @@ typedef struct scree_target {
     scree_node *node;      ///< value, or the element when the path ends with one
     bool element;          ///< the path ends with an element of a list
     const char *component; ///< of a key with components, the one that the path ends with; NULL: the key as a whole
+    bool no_list;          ///< the path leads into a list that the case does not have
     char reason[256];      ///< why the path leads nowhere
 } scree_target;
 

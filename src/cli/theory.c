@@ -5,7 +5,8 @@
 #include <string.h>
 
 /// The options by which theories' own names are given, where they are called otherwise.
-static const char *const other_names[][2] = {{"slope", "phi"}, {"poisson_ratio", "nu"}, {"stiffness_ratio", "kt"}};
+static const char *const other_names[][2] = {
+    {"slope", "phi"}, {"poisson_ratio", "nu"}, {"stiffness_ratio", "kt"}, {"thickness", "depth"}};
 
 static bool has_option(const scree_command *command, const char *name)
 {

@@ -243,15 +243,20 @@ scree_status scree_folders_make(const char *path, scree_error *error)
     return SCREE_OK;
 }
 
+bool scree_folders_are_same(const char *one, const char *other)
+{
+    struct stat a, b;
+    return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 static scree_status check_path(const char *path, scree_error *error)
 {
-    struct stat self, root;
     if (!path || !path[0])
         return scree_error_set(error, SCREE_ERROR_INPUT, "a run needs a folder to write into: the name given is empty");
     if (strlen(path) + 1 + LONGEST_FILE_NAME >= PATH_MAX)
         return scree_error_set(error, SCREE_ERROR_INPUT, "the name of the run's folder has %zu bytes, at most %d work",
                                strlen(path), PATH_MAX - LONGEST_FILE_NAME - 2);
-    if (stat(path, &self) == 0 && stat("/", &root) == 0 && self.st_dev == root.st_dev && self.st_ino == root.st_ino)
+    if (scree_folders_are_same(path, "/"))
         return scree_error_set(error, SCREE_ERROR_INPUT, "'%s' is the root of the file system: choose another folder",
                                path);
     return SCREE_OK;

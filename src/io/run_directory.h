@@ -23,6 +23,9 @@ scree_status scree_run_directory_create(const char *path, bool force, scree_erro
 /// Makes `path` and the folders above it. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT when a file is in the way.
 scree_status scree_folders_make(const char *path, scree_error *error) SCREE_MUST_USE;
 
+/// Whether two names are of one folder that is there.
+bool scree_folders_are_same(const char *one, const char *other);
+
 /// Opens a temporary file beside `path`; scree_replace_finish flushes (fsync), checks and renames it over `path`,
 /// or removes it when `keep` is false. A full disk is reported by finish and leaves the old file as it was. In a run
 /// directory the name is listed first (io/manifest.h).

@@ -216,6 +216,18 @@ static scree_status check_kinds(const char *const *runs, size_t count, const scr
     return scree_error_key(error, SCREE_ERROR_INPUT, "--%s", wrong ? wrong : "contacts");
 }
 
+/// A run that stands twice among those of an ensemble is one sample: intervals are too narrow by it.
+static void warn_of_repeats(const char *const *runs, size_t count, const measure_plan *plan)
+{
+    for (size_t k = 1; k < count; k++)
+        for (size_t i = 0; i < k; i++)
+            if (scree_folders_are_same(runs[i], runs[k])) {
+                measure_say(plan, "warning: %s: this run is named twice: intervals take each as a sample of its own",
+                            runs[k]);
+                break;
+            }
+}
+
 scree_status scree_measure_check(const scree_measure_options *options, scree_error *error)
 {
     measure_plan plan;
@@ -233,6 +245,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     scree_status status = measure_plan_read(options, &plan, error);
     if (!status) status = check_kinds(runs, count, options, error);
     if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
+    if (!status) warn_of_repeats(runs, count, &plan);
     plan.network = !plan.mean && !options->no_figures ? folder : NULL;
     if (!status) status = scree_allocate(&each, count, sizeof *each, error);
     if (!status) status = measure_all(runs, count, &plan, each, &found, error);

@@ -271,8 +271,8 @@ static void tell_closure(measure_fits *fits, const char *where, double from, dou
         ratio += r->point.stress.xx / r->point.stress.yy;
         number++;
     }
-    tell(fits, "mohr_coulomb", where, "1", true, yielding / number);
-    tell(fits, "stress_ratio", where, "1", true, ratio / number);
+    tell(fits, "mohr_coulomb", where, "1", true, number > 0 ? yielding / number : NAN);
+    tell(fits, "stress_ratio", where, "1", true, number > 0 ? ratio / number : NAN);
 }
 
 // ---- the whole ---------------------------------------------------------------------------------------------------

@@ -9,12 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A number and nothing behind it.
+/// A number and nothing behind it. False: *value stays as it is, so that "30 mm" leaves no 30 behind.
 static bool read_number(const char *text, double *value)
 {
     char *end;
-    *value = strtod(text, &end);
-    return end != text && *end == 0 && isfinite(*value);
+    const double number = strtod(text, &end);
+    const bool whole = end != text && *end == 0 && isfinite(number);
+    if (whole) *value = number;
+    return whole;
 }
 
 static scree_status read_fields(const char *text, unsigned *fields, scree_error *error)

@@ -249,6 +249,9 @@ static scree_status measure_sample(const char *name, const measure_plan *plan, b
     scree_status status = SCREE_OK;
     measure_plan own = *plan;
     own.average.frame = first ? NULL : frame;
+    if (sample->dimension == 2 && own.average.grid[2] > 0)
+        return scree_error_refuse(error, "--grid", "points along x and y, such as 100x50",
+                                  "a sample in the plane has no third direction");
     if (own.share > 0) own.average.grains = fmax(1, own.share * (double)sample->counted);
     own.average.fits = !own.element_given;
     if (!own.element_given)
@@ -354,6 +357,9 @@ scree_status measure_run(const char *directory, const measure_plan *plan, measur
     } else {
         status = scree_snapshot_find_when(mark, count, plan->at, "--at", &which, error);
         if (!status && plan->from) status = scree_snapshot_find_when(mark, count, plan->from, "--from", &from, error);
+        if (!status && plan->from && from == which)
+            status = scree_error_refuse(error, "--from", "an earlier one: start, #N, or a stage",
+                                        "'%s' is the snapshot of --at: nothing has moved between the two", plan->from);
         if (!status)
             status = measure_snapshot(directory, &mark[which], plan->from ? &mark[from] : NULL, plan, true, NULL,
                                       tables, error);

@@ -75,6 +75,17 @@ static scree_status check(const scree_theory_pile_of *of, pile_kind kind, scree_
     return SCREE_OK;
 }
 
+/// A relation that no pile bears is called by what was given of it, with the eta and mu that this is.
+static void name_relation(const scree_theory_pile_of *of, scree_oriented o, scree_error *error)
+{
+    char wanted[sizeof error->accepted];
+    if (strcmp(error->field, "eta") != 0 || isnan(of->tau)) return;
+    (void)snprintf(wanted, sizeof wanted, "%s", error->accepted);
+    (void)snprintf(error->field, sizeof error->field, "tau");
+    (void)snprintf(error->accepted, sizeof error->accepted, "%.150s; this is eta = %.3g, mu = %.3g", wanted, o.eta,
+                   o.mu);
+}
+
 /// eta and mu of what was given of eta, mu, K, tau.
 static scree_status choose_relation(const scree_theory_pile_of *of, pile_kind kind, scree_oriented *o,
                                     scree_error *error)
@@ -256,7 +267,10 @@ static scree_status solve_one(scree_theory *t, const scree_theory_pile_of *of, p
         status = scree_incipient_pile(slope, weight, &pile, error);
     } else {
         status = choose_relation(of, kind, &o, error);
-        if (!status) status = scree_oriented_pile(slope, weight, o, &pile, error);
+        if (!status) {
+            status = scree_oriented_pile(slope, weight, o, &pile, error);
+            if (status) name_relation(of, o, error);
+        }
         if (!status) add_relation(t, &pile, slope, o);
     }
     if (status) return status;

@@ -265,9 +265,8 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     bool shallow = in_3d && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
     if (shallow || (!isnan(prepare->width) && prepare->width < 2 * model->radius_max)) {
         char text[160];
-        (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
-                       in_3d ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
-                       shallow ? "deep" : "wide");
+        (void)snprintf(text, sizeof text, "a particle of radius %g m does not fit into a box %g m %s",
+                       model->radius_max, shallow ? prepare->depth : prepare->width, shallow ? "deep" : "wide");
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
     return SCREE_OK;

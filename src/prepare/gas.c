@@ -188,11 +188,7 @@ static scree_status check(const scree_model *model, const scree_config_stage *st
     gas_sides(model, stage, side);
     for (int k = 0; k < model->dimension; k++) {
         if (!(periodic >> k & 1) || shrunk * side[k] > needed) continue;
-        return scree_prepare_error(
-            error, model, stage, "aspect_ratio",
-            "the periodic cell %s only %.3g m wide along %c, and must be wider than two of the largest particles side "
-            "by side (%.3g m): take more particles or another aspect_ratio",
-            shrunk < 1 ? "will be" : "is", shrunk * side[k], "xyz"[k], needed);
+        return scree_prepare_refuse_side(model, stage, k, shrunk < 1, shrunk * side[k], needed, error);
     }
     return SCREE_OK;
 }
@@ -247,14 +243,10 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     scree_box *box = &packing->box;
     double largest = scree_packing_largest(packing), fraction = solid_fraction_of(model, stage);
     scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 0);
-    if (packing->dimension == 2 && fmin(box->width, box->height) < 2 * largest)
-        return scree_prepare_error(error, model, stage, "solid_fraction",
-                                   "a disc of radius %g m does not fit into a box of %g m by %g m", largest, box->width,
-                                   box->height);
-    if (packing->dimension == 3 && fmin(fmin(box->width, box->depth), box->height) < 2 * largest)
-        return scree_prepare_error(error, model, stage, "solid_fraction",
-                                   "a sphere of radius %g m does not fit into a box of %g m by %g m by %g m", largest,
-                                   box->width, box->depth, box->height);
+    const double depth = packing->dimension == 3 ? box->depth : INFINITY;
+    if (fmin(fmin(box->width, depth), box->height) < 2 * largest)
+        return scree_prepare_refuse_box(model, stage, largest, (const double[]){box->width, box->depth, box->height},
+                                        error);
     return fill(model, stage, packing, largest, fraction, error);
 }
 

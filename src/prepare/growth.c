@@ -266,11 +266,7 @@ static scree_status check_sides(const scree_model *model, const scree_config_sta
     double needed = (4 * scree_packing_largest(packing) + 2 * SKIN * model->mean_radius) * (1 + 2 * EXCESS);
     for (int c = 0; c < packing->dimension; c++)
         if (box->periodic >> c & 1 && !(side[c] > needed))
-            return scree_prepare_error(error, model, stage, "aspect_ratio",
-                                       "the periodic cell is only %.3g m wide along %c, and must be wider than %.3g m, "
-                                       "two of the largest particles side by side: take more particles or another "
-                                       "aspect_ratio",
-                                       side[c], "xyz"[c], needed);
+            return scree_prepare_refuse_side(model, stage, c, false, side[c], needed, error);
     return SCREE_OK;
 }
 
@@ -281,9 +277,8 @@ static scree_status check_box(const scree_model *model, const scree_config_stage
     const double largest = scree_packing_largest(packing);
     const bool in_3d = packing->dimension == 3;
     if (fmin(fmin(box->width, box->height), in_3d ? box->depth : INFINITY) < 2 * largest)
-        return scree_prepare_error(error, model, stage, "solid_fraction",
-                                   "a %s of radius %g m does not fit into a box %g m wide and %g m high",
-                                   in_3d ? "sphere" : "disc", largest, box->width, box->height);
+        return scree_prepare_refuse_box(model, stage, largest, (const double[]){box->width, box->depth, box->height},
+                                        error);
     return check_sides(model, stage, packing, error);
 }
 

@@ -13,6 +13,16 @@
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
                                  const char *key, const char *format, ...) SCREE_PRINTF(5, 6);
 
+/// The error that a box (width, depth, height [m]; no depth in 2D) is too small for the largest body, of this radius or
+/// bounding radius [m]; names the side that the case gives, else the solid fraction.
+scree_status scree_prepare_refuse_box(const scree_model *model, const scree_config_stage *stage, double largest,
+                                      const double box[3], scree_error *error);
+
+/// The error that a sample that repeats itself is, or will be, too narrow along an axis: `side` where more than
+/// `needed` [m] is wanted. Names the side that the case gives, else the aspect ratio.
+scree_status scree_prepare_refuse_side(const scree_model *model, const scree_config_stage *stage, int axis,
+                                       bool will_be, double side, double needed, scree_error *error);
+
 /// Index of the cell of size `cell` that holds a coordinate, kept within [0, count).
 static inline size_t scree_cell_within(double coordinate, double cell, size_t count)
 {

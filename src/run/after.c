@@ -15,7 +15,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 // ---- the state ---------------------------------------------------------------------------------------------------
@@ -89,12 +88,6 @@ static scree_status read_end(scree_simulation *s, const scree_case *first, int64
     return status;
 }
 
-static bool is_same_folder(const char *one, const char *other)
-{
-    struct stat a, b;
-    return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
 scree_status scree_after_read(scree_simulation *s, const scree_case *c, const scree_run_options *options,
                               scree_after *after, scree_error *error)
 {
@@ -102,7 +95,7 @@ scree_status scree_after_read(scree_simulation *s, const scree_case *c, const sc
     const char *other = options->after;
     scree_case *first = NULL;
     scree_simulation there = {0};
-    if (is_same_folder(options->output, other))
+    if (scree_folders_are_same(options->output, other))
         return scree_error_set(error, SCREE_ERROR_INPUT,
                                "'%s' holds the run to go on behind: the new one needs a folder of its own", other);
     scree_status status = scree_restart_case(other, &first, error);

@@ -124,6 +124,7 @@ static const scree_result results[] = {
     {"dip_element", "1", "particles in the elements that this pressure is a mean over"},
 };
 
+#define PLATE_MISSES 1e-3 /* of what holds the pile up: more is said */
 enum { DIP_GRAINS = 150, DIP_SHARE = 10, DIP_POINTS = 41 };
 
 /// Dip of the lowest cut (average/dip.h), in elements of DIP_GRAINS, in small piles of a tenth of the grains. NAN of
@@ -193,6 +194,19 @@ static void write_outline(FILE *file, const scree_pile *pile)
     }
 }
 
+/// Grains that hang on something beside the plate, such as a funnel, are counted in the pile: heights and angles are
+/// not those of what lies on the plate.
+static void warn_of_hanging(const scree_conclusion *run, const scree_pile *pile)
+{
+    const numbers *n = scree_model_numbers(&run->s->model, SCREE_SLOT_pile);
+    if (!n || n->plate < 0 || !(pile->plate < (1 - PLATE_MISSES) * pile->support)) return;
+    scree_log_write(run->log, SCREE_LOG_WARNING,
+                    "wall '%s' (measure.plate) bears %.1f %% of the pile, the rest hangs on something else that "
+                    "stands: if that is a funnel, it has clogged, and height and angles are also those of the grains "
+                    "in it; make its opening wider",
+                    run->s->model.walls_of_case[n->plate].name, 100 * pile->plate / pile->support);
+}
+
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     char path[PATH_MAX];
@@ -203,6 +217,7 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     const scree_context c = {.model = &s->stage_model, .state = &s->state, .work = &s->work, .table = &s->table};
     scree_status status = measure(&c, &pile, error);
     if (status) return status;
+    warn_of_hanging(run, &pile);
     status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_OUTLINE, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (!status) {

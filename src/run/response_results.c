@@ -142,6 +142,19 @@ static scree_status find_loaded(const scree_model *model, const scree_state *sta
     return SCREE_OK;
 }
 
+/// Elements lie within the layer.
+static scree_status check_element(const numbers *n, const scree_state *state, scree_error *error)
+{
+    double wide[2], high[2];
+    if (n->element == 0) return SCREE_OK;
+    scree_grains_ends(state, 0, wide);
+    scree_grains_ends(state, 1, high);
+    if (n->element <= fmin(wide[1] - wide[0], high[1] - high[0])) return SCREE_OK;
+    return scree_error_refuse(error, "measure.response_element", "auto: two mean diameters",
+                              "an element of %.3g m is larger than the layer, which is %.3g m wide and %.3g m high",
+                              n->element, wide[1] - wide[0], high[1] - high[0]);
+}
+
 /// The load presses on a grain at the top when it begins to act.
 static scree_status begin(const scree_context *c, scree_error *error)
 {
@@ -156,6 +169,7 @@ static scree_status begin(const scree_context *c, scree_error *error)
         scree_config_selection_find(c->model->selections, c->model->selection_count, own->selection);
     scree_status status = scree_selection_resolve(c->model, c->state, selection, error);
     if (!status) status = find_loaded(c->model, c->state, n->load, &row, error);
+    if (!status) status = check_element(n, c->state, error);
     if (status) return status;
     const uint32_t above = scree_row_above(c->state, row);
     return above == SCREE_NO_ROW

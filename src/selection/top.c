@@ -37,8 +37,7 @@ uint32_t scree_row_above(const scree_state *state, size_t row)
     return SCREE_NO_ROW;
 }
 
-/// Ends of the sample along an axis [m].
-static void find_ends(const scree_state *state, int axis, double end[2])
+void scree_grains_ends(const scree_state *state, int axis, double end[2])
 {
     end[0] = INFINITY, end[1] = -INFINITY;
     for (size_t row = 0; row < state->count; row++) {
@@ -56,7 +55,7 @@ static scree_status find_place(const scree_state *state, const select_top *own, 
     const double said[2] = {own->x, own->y};
     for (int k = 0; k < state->dimension - 1; k++) {
         double end[2];
-        find_ends(state, k, end);
+        scree_grains_ends(state, k, end);
         place[k] = isnan(said[k]) ? 0.5 * (end[0] + end[1]) : said[k];
         if (place[k] < end[0] || place[k] > end[1])
             return scree_error_set(error, SCREE_ERROR_INPUT,

@@ -9,4 +9,7 @@
 /// those of the discs (spheres) of equal area (volume). Cost: linear in the bodies.
 uint32_t scree_row_above(const scree_state *state, size_t row);
 
+/// Ends of the sample along an axis [m]: of its grains.
+void scree_grains_ends(const scree_state *state, int axis, double end[2]);
+
 #endif

@@ -12,6 +12,7 @@
 
 #include <limits.h>
 #include <sleef.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef scree_polygons own;
@@ -82,13 +83,24 @@ static bool is_unreadable(const config *c)
     return !all;
 }
 
+/// Why numbers of corners cannot be drawn from a range; NULL: they can, or an end of it is wrong for itself (0), and
+/// noted.
+static const char *wrong_range(const config *c)
+{
+    static _Thread_local char why[120];
+    if (c->corners_min == 0 || c->corners_max == 0 || c->corners_max >= c->corners_min) return NULL;
+    (void)snprintf(why, sizeof why, "%lld is less than corners_min, %lld", (long long)c->corners_max,
+                   (long long)c->corners_min);
+    return why;
+}
+
 static const char *wrong(const void *said, const char **key)
 {
     const config *c = said;
     *key = "corners";
     if (c->outline == GIVEN) return is_unreadable(c) ? NULL : wrong_outline(c);
     *key = "corners_max";
-    return c->corners_max < c->corners_min ? "is less than corners_min" : NULL;
+    return wrong_range(c);
 }
 
 // ---- drawing -----------------------------------------------------------------------------------------------------

@@ -245,6 +245,8 @@ static scree_status compare_apart(question *q)
     if (!status && apart && sides[0].strangers + sides[1].strangers == 0) {
         q->answer->interval = settle_apart(q, sides, split.sign);
         remark(q->answer, "means of %zu and %zu compared", sides[0].count, sides[1].count);
+        const bool mixed = sides[0].samples == 0 || sides[1].samples == 0;
+        if (mixed) remark(q->answer, "one side mixes samples: put those of one kind into brackets, a - (b + c)");
         if (sides[0].count == 0 || sides[1].count == 0) q->answer->verdict = SCREE_NOT_MEASURED;
     }
     for (int k = 0; k < 2; k++) scree_release(&sides[k].value);

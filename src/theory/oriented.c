@@ -85,7 +85,7 @@ static scree_status check(double slope, scree_oriented o, scree_error *error)
             "stress inside: take a larger eta");
     if (!(o.eta > 0))
         return scree_error_refuse(
-            error, "eta", "above 0",
+            error, "eta", "eta above 0",
             "both characteristics run to the same side of the pile, so its two slopes cannot carry it: take "
             "eta above 0");
     if (!(c * c - o.mu * c - o.eta > 0))

@@ -48,6 +48,7 @@ sed 's/{select: top, name: top-grain}/{select: ids, name: top-grain, ids: [3]}/'
 expect 2 'measure.response_load: .*particle 3, which is not at the top: particle [0-9]+ stands over it' "$scree" run below.yaml "${layer[@]:1}" -o no4
 sed 's/ids: \[3\]/ids: [58, 59]/' below.yaml >several.yaml
 expect 2 'measure.response_load: .*particle 58 and on particle 59' "$scree" run several.yaml "${layer[@]:1}" -o no5
+expect 2 'measure.response_element: an element of 0.3 m is larger than the layer, which is 0.09.* m wide and 0.0.* m high' "$scree" run "${layer[@]}" --set measure.response_element="30 cm" -o no6
 # A load that the layer does not bear: no response, and why.
 expect 0 'no response: the layer gives way.*until_force.*smaller' "$scree" run "${layer[@]}" --set loads.piston.until_force="1 MN" --set stages.press.duration="2 ms" --set stages.hold.duration="2 ms" -o yields
 expect 2 'no result .response_force' "$scree" get yields response_force

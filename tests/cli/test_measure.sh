@@ -66,6 +66,9 @@ expect 0 'mean over 3 snapshots' "$scree" measure pile1 --at mean:3 --no-figures
 
 # What cannot be.
 expect 2 '--element: .* larger than the sample.*take fewer grains' "$scree" measure pile1 --element 5000
+# A length is a length, and not as many grains.
+expect 0 '^element_side +0\.005 ' "$scree" measure pile1 --element '5 mm' --no-figures -o few
+expect 2 '--element: an element of 1 m .*larger than the sample' "$scree" measure pile1 --element '1 m'
 expect 2 "--fields: there is no field 'stres'.*density" "$scree" measure pile1 --fields stres
 expect 2 '--cuts: .*relative heights' "$scree" measure pile1 --cuts 0.5,1.5
 expect 2 '--grid: .*100x50' "$scree" measure pile1 --grid 10
@@ -78,6 +81,9 @@ time=$("$scree" measure pile1 --at '#8' --no-figures 2>/dev/null | awk '$1 == "t
 expect 0 "time +$time" "$scree" measure pile1 --at "$time s" --no-figures
 expect 2 '--from: ' "$scree" measure pile1 --at mean:2 --from start
 expect 2 '--at: there is no grain to average over.*another snapshot' "$scree" measure pile1 --at start
+expect 2 "--from: 'pour' is the snapshot of --at: nothing has moved.*an earlier one" "$scree" measure pile1 --from pour --at pour
+expect 2 '--grid: a sample in the plane has no third direction .accepted: points along x and y' "$scree" measure pile1 --grid 4x5x6 --no-figures
+expect 0 'warning: ./pile1/: this run is named twice' "$scree" measure pile1 pile2 ./pile1/ --no-figures -o twice
 expect 2 'no grain is in both' "$scree" measure pile1 --from start
 expect 4 'cannot open|no such' "$scree" measure nothing
 expect 2 "--sizes: '20,10' says no sizes.*that grow" "$scree" measure pile1 --sizes 20,10
@@ -123,6 +129,7 @@ expect 2 "three piles or more" "$scree" measure pile1 pile2 --fit bcc --no-figur
 expect 2 "no theory of piles 'bbc'" "$scree" measure pile1 pile2 --fit osl,bbc --no-figures -o none
 expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=3 --threads 1 --quiet -o pile3
 expect 0 'fit_osl_eta' "$scree" measure pile1 pile2 pile3 --fit bcc,osl,wedge -o fit
+grep -q -- '-nan' <<<"$output" && complain "a number that is none has a sign"
 for file in fits.csv fit-points.csv fits-vertical.png mohr-coulomb.png; do
     checks=$((checks + 1))
     [ -s "fit/$file" ] || complain "there is no fit/$file"

@@ -54,6 +54,9 @@ changed() {
     expect 2 "$2" "$scree" check bad.yaml
 }
 changed 's/outline: ellipse.*/&\n  axis_ratio: 0.5/' "particles\.axis_ratio: '0\.5' is too small .accepted: 1 to 20"
+changed 's/corners_min: 6/corners_min: 9/' 'particles\.corners_max: 8 is less than corners_min, 9$'
+changed 's/corners_max: 8/corners_max: 1000/' "particles\.corners_max: '1000' is too large .accepted: 3 to 32"
+same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
 changed 's/radius_min: .*/radius_min: 0 mm/' "particles\.radius_min: '0 mm' is too small"
 changed 's/radius_min: .*/radius_min: -1 mm/' "particles\.radius_min: '-1 mm' is too small"
 changed 's/radius_min: .*/radius_min: 5 mm/' "particles\.radius_min: '5 mm' is larger than radius_max"
@@ -65,6 +68,11 @@ changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary:
 changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: sources do not pour into a sample that repeats itself: leave boundary\.periodic out'
 changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
 changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'
+
+# Without sources the keys of quick that set some of theirs are wrong, and nothing else is near to them.
+sed '/^sources:/,/^$/d' good.yaml >bad.yaml
+expect 2 'stages\.1\.stage: there is nothing that it could pour from: give .sources' "$scree" check bad.yaml
+same "$(grep -c 'the case has no list of sources$' <<<"$output")" 2 "keys of a list that is not there: $output"
 
 # Grains that find no room, and what only a run can know.
 small=(--quick --set particles.count=6 --no-figures --set output.paraview=no)
@@ -84,6 +92,16 @@ expect 3 "source 'spout' has been blocked .*raise the source, pour fewer particl
     "$scree" run bad.yaml "${small[@]}" -o blocked
 expect 0 'stopped' "$scree" get blocked status
 expect 0 '' "$scree" run bad.yaml "${small[@]}" --set sources.spout.place='[0, 10 cm]' --set particles.count=1 --quiet --set stages.settle.duration='1 ms' -o fine
+
+# A funnel whose opening of 4 mm is narrower than its discs: a run that ends says so, one that goes on pouring stops.
+funnel=(--quick --no-figures --quiet --set output.paraview=no --set stages.pour.rest_time='50 ms' --set stages.settle.duration='1 ms'
+    --set walls.left.corners='[[-8 mm, 156 mm], [-2 mm, 156 mm], [-32 mm, 186 mm], [-38 mm, 186 mm]]'
+    --set walls.right.corners='[[2 mm, 156 mm], [8 mm, 156 mm], [38 mm, 186 mm], [32 mm, 186 mm]]'
+    --set sources.belt.start='[-3 mm, 17 cm]' --set sources.belt.end='[3 mm, 17 cm]')
+expect 0 "warning: wall 'plate' .measure\.plate. bears 0\.0 % of the pile.*funnel, it has clogged.*opening wider" \
+    "$scree" run pile-hopper "${funnel[@]}" --set particles.count=4 -o clogged
+expect 3 "source 'belt' has been blocked .*the pile has reached the source, or a funnel has clogged" \
+    "$scree" run pile-hopper "${funnel[@]}" --set particles.count=40 --set stages.pour.patience='0.1 s' -o choked
 
 # A polygon larger than its domain, and one that strikes too hard.
 cat >big.yaml <<'CASE'
@@ -105,6 +123,11 @@ CASE
 expect 2 "particle 0 at .* is in wall 'vessel'.*move the wall" "$scree" run big.yaml --no-figures -o big
 sed 's/method: bodies.*}/method: gas, width: 4 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
 expect 2 "^bad\.yaml:13:[0-9]+: stages\.0\.width: .*does not fit into a box 0\.04 m wide" "$scree" check bad.yaml
+sed 's/radius: 5 cm/radius: 1.9 cm, axis_ratio: 4/; s/method: bodies.*}/method: gas, width: 4 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
+expect 2 'stages\.0\.width: a particle with a bounding circle of radius 0\.0[0-9]* m does not fit into a box 0\.04 m wide and' "$scree" run bad.yaml --no-figures -o long
+sed 's/^walls:/boundary: {periodic: xy}/; /shape: box/d; s/, boundary: walls//; s/^gravity: .*/gravity: [0, 0]/; s/radius: 5 cm/radius: 1 cm/
+    s/method: bodies.*}/method: gas, width: 3 cm, solid_fraction: 30 %, velocity: 0.1 m\/s}/' big.yaml >bad.yaml
+expect 2 'stages\.0\.width: the periodic cell is only 0\.03 m wide along x, .*two of the largest particles side by side .0\.04 m.: make it wider' "$scree" check bad.yaml
 sed 's/radius: 5 cm/radius: 1 cm/; s/young_modulus: 1e7/young_modulus: 1e4/; s/\[{position: \[2 cm, 2 cm\]}\]/[{position: [2 cm, 2 cm], velocity: [0, -20]}]/; s/step: 1e-6/step: 1e-5/' big.yaml >bad.yaml
 expect 3 'particle 0 at .*guard\.overlap.*try a stiffer material' "$scree" run bad.yaml --no-figures -o deep
 expect 0 'stopped' "$scree" get deep status

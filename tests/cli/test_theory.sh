@@ -132,6 +132,7 @@ expect 2 '--height: .*above 0' "$scree" theory fpa --phi 28 --height 0
 expect 2 '--eta: .*real characteristics.*larger eta' "$scree" theory osl --phi 28 --eta -0.5 --mu 0.2
 expect 2 '--eta: .*same side' "$scree" theory osl --phi 28 --eta -0.1 --mu -1
 expect 2 '--eta: .*flatter than the slope' "$scree" theory osl --phi 28 --eta 1.2 --mu 3
+expect 2 '--tau: both characteristics run to the same side .*accepted: eta above 0; this is eta = -[0-9.]+, mu = ' "$scree" theory osl --phi 28 --tau 45
 expect 2 '--ratio: .*K above 0' "$scree" theory osl --phi 28 --ratio -1 --tau 80
 expect 2 '--ratio: .*tau' "$scree" theory osl --phi 28 --ratio 1.3
 expect 2 '--eta: .*which relation' "$scree" theory osl --phi 28
@@ -145,6 +146,7 @@ expect 2 '--nu: .*at most 0.5' "$scree" theory layer --nu 0.6
 expect 2 '--base: .*accepted: bonded' "$scree" theory layer --base bondd
 expect 2 '--thickness: .*above 0' "$scree" theory layer --thickness -1
 expect 2 '--force: .*above 0' "$scree" theory flamant --force 0
+expect 2 '--depth: .*above 0' "$scree" theory flamant --depth 0
 expect 2 '--eta: ' "$scree" theory bcc --phi 28 --eta 1
 
 finish 'closed forms'

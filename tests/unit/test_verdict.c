@@ -360,6 +360,22 @@ static void other_samples_are_not_paired(void **state)
     assert_near(sum.interval.middle, (exp(1) + exp(3) - exp(5) - exp(7)) / 2, 1e-12);
 }
 
+/// The last operator takes a sum apart: what is left of it must not mix samples, and brackets see to that.
+static void sums_of_other_samples_need_brackets(void **state)
+{
+    (void)state;
+    const run a[] = {DONE(1, 0.8, 10), DONE(2, 0.81, 12)}, b[] = {DONE(3, 0.7, 2), DONE(4, 0.71, 3)};
+    write_sweep("s", "a", a, 2);
+    write_sweep("s", "b", b, 2);
+    scree_answer mixed = answer_to("given: x, value: s/a.r + s/a.r - s/b.r - s/b.r, criterion: greater than 0");
+    assert_int_equal(mixed.verdict, SCREE_NOT_MEASURED);
+    assert_remark(&mixed, "one side mixes samples: put those of one kind into brackets");
+    scree_answer apart = answer_to("given: x, value: s/a.r + s/a.r - (s/b.r + s/b.r), criterion: greater than 0");
+    assert_near(apart.interval.middle, 17, 1e-12);
+    assert_remark(&apart, "means of 2 and 2 compared");
+    assert_null(strstr(apart.remark, "brackets"));
+}
+
 /// Three of three: 0.025^(1/3) = 0.29; six of six: 0.54.
 static void few_samples_do_not_prove_a_comparison(void **state)
 {
@@ -477,6 +493,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(same_samples_are_paired, begin, end),
         cmocka_unit_test_setup_teardown(packings_are_paired, begin, end),
         cmocka_unit_test_setup_teardown(other_samples_are_not_paired, begin, end),
+        cmocka_unit_test_setup_teardown(sums_of_other_samples_need_brackets, begin, end),
         cmocka_unit_test_setup_teardown(few_samples_do_not_prove_a_comparison, begin, end),
         cmocka_unit_test_setup_teardown(mixed_builds_and_preparations_show, begin, end),
         cmocka_unit_test_setup_teardown(wrong_tables_are_refused_with_the_nearest_name, begin, end),
