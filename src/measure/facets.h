@@ -36,6 +36,12 @@ static inline void scree_boundary_position(const scree_state *state, size_t node
     scree_boundary_place(state, scree_boundary_id(state, node), scree_boundary_body_of(state, node), position);
 }
 
+/// Velocity [m/s] of a node.
+static inline void scree_boundary_motion(const scree_state *state, size_t node, scree_vector velocity)
+{
+    scree_boundary_velocity(state, scree_boundary_id(state, node), scree_boundary_body_of(state, node), velocity);
+}
+
 /// One facet: its nodes, in 2D counter-clockwise with the sample on the left, in 3D counter-clockwise from outside.
 typedef struct scree_facet {
     size_t node[3];
