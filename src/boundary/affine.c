@@ -9,6 +9,7 @@
 #include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/imposed_gradient.h"
+#include "comm/parts.h"
 #include "measure/facets.h"
 #include "measure/imposed_gradient.h"
 #include "module/key_rows.h"
@@ -23,32 +24,36 @@ static void find_centre(const scree_state *state, scree_vector centre)
     scree_vector position;
     while (scree_integer_sum_next(sum, 3))
         for (size_t k = 0; k < count; k++) {
-            scree_body_position(state, scree_boundary_row(state, k), position);
+            scree_boundary_position(state, k, position);
             for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], position[i]);
         }
     for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)count;
 }
 
 /// Velocity that a body of the boundary shall have.
-static void wanted_velocity(const scree_state *state, size_t row, const scree_vector centre, scree_vector velocity)
+static void wanted_velocity(const scree_state *state, size_t node, const scree_vector centre, scree_vector velocity)
 {
     scree_vector position;
-    scree_body_position(state, row, position);
+    scree_boundary_position(state, node, position);
     for (int i = 0; i < 3; i++) {
         velocity[i] = 0;
         for (int j = 0; j < 3; j++) velocity[i] += scree_imposed(state)->target[3 * i + j] * (position[j] - centre[j]);
     }
 }
 
+/// What a force has to balance is known to the process that has the body, which tells the others.
 static void move_bodies(scree_state *state, const scree_vector centre, double kick)
 {
-    for (size_t k = 0; k < scree_imposed(state)->count; k++) {
+    scree_imposed_gradient *imposed = scree_imposed(state);
+    const uint32_t *id = state->dimension == 3 ? scree_hull_of(state)->id : scree_loop_of(state)->id;
+    for (size_t k = 0; k < imposed->count; k++) {
         size_t row = scree_boundary_row(state, k);
+        if (row == SCREE_NO_ROW) continue;
         const scree_sum_row *sum = &state->sum[row];
         const int64_t others[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
         scree_vector wanted, velocity, spin;
         int64_t quanta[3];
-        wanted_velocity(state, row, centre, wanted);
+        wanted_velocity(state, k, centre, wanted);
         scree_body_motion(state, row, velocity, spin);
         for (int i = 0; i < 3; i++) {
             double force = state->row[row].mass * (wanted[i] - velocity[i]) / kick;
@@ -56,6 +61,7 @@ static void move_bodies(scree_state *state, const scree_vector centre, double ki
         }
         scree_imposed_add(state, k, quanta);
     }
+    scree_parts_tell(state, id, imposed->count, (double *)imposed->force, 3);
 }
 
 static scree_status add_forces(const scree_context *c, scree_error *error)
@@ -85,7 +91,8 @@ static double bound(const scree_context *c)
     find_centre(state, centre);
     for (size_t k = 0; k < scree_boundary_count(state); k++) {
         size_t row = scree_boundary_row(state, k);
-        wanted_velocity(state, row, centre, wanted);
+        if (row == SCREE_NO_ROW) continue;
+        wanted_velocity(state, k, centre, wanted);
         scree_body_motion(state, row, velocity, spin);
         double change = scree_length(wanted) + scree_length(velocity);
         largest = fmax(largest, state->row[row].mass * change / state->step_size);
@@ -109,4 +116,5 @@ const scree_module scree_module_affine = {
     .meaning = "no plates: every body of the boundary moves with the velocity gradient",
     .choice_of = CHOICE_OF(IS("stages.boundary")),
     .boundary = &face,
+    .spreads = true,
 };

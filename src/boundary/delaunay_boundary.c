@@ -5,6 +5,8 @@
 #include "boundary/boundary.h"
 #include "boundary/boundary_forget.h"
 #include "boundary/pressure.h"
+#include "comm/comm.h"
+#include "comm/parts.h"
 #include "measure/facets.h"
 #include "state/plates.h"
 
@@ -44,6 +46,12 @@ static const scree_field fields[] = {
     LOOP(fy, double, "force_y", SCREE_FIELD_DOUBLE, "N", "y component of the force of the pressure on this body"),
     SCREE_FIELD_GROUP(delaunay_boundary, own, scree_loop_group, loop.term, double, "boundary/term", SCREE_FIELD_DOUBLE,
                       1, "1", "term of a sum along the boundary", .role = SCREE_FIELD_DERIVED, .only_dimension = 2),
+    SCREE_FIELD_GROUP(delaunay_boundary, own, scree_loop_group, loop.body, scree_boundary_body, "boundary/body",
+                      SCREE_FIELD_DOUBLE, 7, "1", "the bodies as other processes see them", .role = SCREE_FIELD_DERIVED,
+                      .only_dimension = 2),
+    SCREE_FIELD_GROUP(delaunay_boundary, own, scree_hull_nodes, hull.body, scree_boundary_body, "hull/body",
+                      SCREE_FIELD_DOUBLE, 7, "1", "the bodies as other processes see them", .role = SCREE_FIELD_DERIVED,
+                      .only_dimension = 3),
 
     HULL(scree_hull_nodes, id, uint32_t, "id", SCREE_FIELD_UINT32, 1, "1", "bodies on the hull, by id, ascending",
          SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
@@ -95,12 +103,57 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return scree_checksum_numbers(c, scree_strain_of(state)->gradient, 9);
 }
 
+// ---- in all processes --------------------------------------------------------------------------------------------
+
+/// Fills in those that are here.
+static void take(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        scree_vector spin;
+        const uint32_t row = scree_state_row_of(state, id[k]);
+        if (row == SCREE_NO_ROW) continue;
+        scree_body_position(state, row, body[k].position);
+        scree_body_motion(state, row, body[k].velocity, spin);
+        body[k].radius = scree_body_bounding_radius(state, row);
+    }
+}
+
+void scree_boundary_tell(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count)
+{
+    if (!state->part || count == 0) return;
+    take(state, id, body, count);
+    scree_parts_tell(state, id, count, (double *)body, sizeof *body / sizeof(double));
+}
+
+/// Of a whole sample that will be spread.
+static void derive(scree_state *state)
+{
+    const scree_loop *loop = scree_loop_of(state);
+    const scree_hull *hull = scree_hull_of(state);
+    if (state->part || scree_comm_size() == 1) return;
+    take(state, loop->id, loop->body, loop->count);
+    take(state, hull->id, hull->body, hull->node_count);
+}
+
+/// Once a step: velocities are the same until the second half, positions until the next first one.
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    const scree_loop *loop = scree_loop_of(c->state);
+    const scree_hull *hull = scree_hull_of(c->state);
+    (void)error;
+    scree_boundary_tell(c->state, loop->id, loop->body, loop->count);
+    scree_boundary_tell(c->state, hull->id, hull->body, hull->node_count);
+    return SCREE_OK;
+}
+
+// ---- module ------------------------------------------------------------------------------------------------------
+
 static scree_status refresh(const scree_context *c, scree_error *error)
 {
     return c->boundary->open ? SCREE_OK : scree_boundary_refresh(c->model, c->state, error);
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, .run = refresh}};
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = follow}, {SCREE_PHASE_SEARCH, .run = refresh}};
 
 static const scree_result columns[] = {{"boundary_count", "1", "particles on the Delaunay boundary"}};
 
@@ -120,8 +173,9 @@ const scree_module scree_module_delaunay_boundary = {
     .check = check,
     .checksum = checksum,
     .forget = scree_boundary_forget,
+    .derive = derive,
     .passes = passes,
-    .pass_count = 1,
+    .pass_count = sizeof passes / sizeof *passes,
     .columns = SCREE_RESULTS(columns, sample),
     .spreads = true,
 };

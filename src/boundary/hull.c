@@ -30,23 +30,24 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
 {
     double *points = NULL, *radius = NULL;
     scree_peel_rule rule;
-    uint32_t *past = NULL, *row = NULL;
-    const size_t count = scree_grain_count(state);
+    uint32_t *past = NULL;
+    scree_grain_place *grain = NULL;
+    size_t count = 0;
     *surface = (scree_triangle_surface){0};
-    scree_status status = scree_grains_by_id(state, &row, error);
-    if (!status) status = scree_facet_rule(model, state, row, &rule, &past, error);
+    scree_status status = scree_grain_places(state, &grain, &count, error);
+    if (!status) status = scree_facet_rule(model, state, grain, count, &rule, &past, error);
     if (!status) status = scree_allocate(&points, 3 * count, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, count, sizeof *radius, error);
     if (!status) {
         for (size_t k = 0; k < count; k++) {
-            scree_body_position(state, row[k], points + 3 * k);
-            radius[k] = scree_body_bounding_radius(state, row[k]);
+            memcpy(points + 3 * k, grain[k].position, sizeof grain[k].position);
+            radius[k] = grain[k].radius;
         }
         status = scree_outer_surface(points, radius, count, 2 * model->mean_radius, &rule, surface, error);
     }
     for (size_t k = 0; k < 3 * surface->count && !status; k++)
-        surface->triangle[k / 3][k % 3] = state->id[row[surface->triangle[k / 3][k % 3]]];
-    scree_release(&row);
+        surface->triangle[k / 3][k % 3] = (uint32_t)grain[surface->triangle[k / 3][k % 3]].id;
+    scree_release(&grain);
     scree_release(&past);
     scree_release(&points);
     scree_release(&radius);
@@ -58,6 +59,7 @@ static void hull_destroy(scree_hull *hull)
     scree_release(&hull->id);
     scree_release(&hull->position);
     scree_release(&hull->force);
+    scree_release(&hull->body);
     scree_release(&hull->triangle);
     scree_release(&hull->loaded);
 }
@@ -68,6 +70,7 @@ static scree_status hull_create(scree_hull *hull, size_t nodes, size_t triangles
     scree_status status = scree_allocate(&hull->id, nodes, sizeof *hull->id, error);
     if (!status) status = scree_allocate(&hull->position, nodes, sizeof *hull->position, error);
     if (!status) status = scree_allocate(&hull->force, nodes, sizeof *hull->force, error);
+    if (!status) status = scree_allocate(&hull->body, nodes, sizeof *hull->body, error);
     if (!status) status = scree_allocate(&hull->triangle, triangles, sizeof *hull->triangle, error);
     if (!status) status = scree_allocate(&hull->loaded, triangles, sizeof *hull->loaded, error);
     return status;
@@ -84,10 +87,11 @@ static scree_status fill_hull(const scree_state *state, const scree_triangle_sur
     if (status) return status;
     for (size_t id = 0; id < state->id_count; id++) {
         if (!node_of[id]) continue;
-        scree_body_position(state, state->row_of_id[id], hull->position[hull->node_count]);
         hull->id[hull->node_count] = (uint32_t)id;
         node_of[id] = (uint32_t)hull->node_count++;
     }
+    scree_boundary_tell(state, hull->id, hull->body, nodes);
+    for (size_t k = 0; k < nodes; k++) scree_boundary_place(state, hull->id[k], &hull->body[k], hull->position[k]);
     for (size_t k = 0; k < 3 * surface->count; k++)
         hull->triangle[k / 3][k % 3] = node_of[surface->triangle[k / 3][k % 3]];
     hull->triangle_count = surface->count;
@@ -129,8 +133,9 @@ typedef struct hull_press {
 static void add_force(const hull_press *press, size_t node, const int64_t force[3])
 {
     scree_hull *hull = scree_hull_of(press->state);
-    scree_sum_row *sum = &press->state->sum[press->state->row_of_id[hull->id[node]]];
-    if (press->adds) {
+    const uint32_t row = scree_state_row_of(press->state, hull->id[node]);
+    if (press->adds && row != SCREE_NO_ROW) {
+        scree_sum_row *sum = &press->state->sum[row];
         scree_wrapping_add(&sum->fx, force[0]);
         scree_wrapping_add(&sum->fy, force[1]);
         scree_wrapping_add(&sum->fz, force[2]);
@@ -207,8 +212,8 @@ double scree_hull_power(const scree_state *state)
     scree_integer_sum power = {0};
     while (scree_integer_sum_next(&power, 1))
         for (size_t k = 0; k < hull->node_count; k++) {
-            scree_vector velocity, spin;
-            scree_body_motion(state, state->row_of_id[hull->id[k]], velocity, spin);
+            scree_vector velocity;
+            scree_boundary_velocity(state, hull->id[k], &hull->body[k], velocity);
             scree_integer_sum_add(&power, scree_dot(hull->force[k], velocity));
         }
     return scree_integer_sum_total(&power);

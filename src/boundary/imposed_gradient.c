@@ -50,10 +50,13 @@ scree_status scree_imposed_refresh(const scree_context *context, scree_error *er
 
 void scree_imposed_add(scree_state *state, size_t node, const int64_t quanta[3])
 {
-    scree_sum_row *sum = &state->sum[scree_boundary_row(state, node)];
-    scree_wrapping_add(&sum->fx, quanta[0]);
-    scree_wrapping_add(&sum->fy, quanta[1]);
-    if (state->dimension == 3) scree_wrapping_add(&sum->fz, quanta[2]);
+    const size_t row = scree_boundary_row(state, node);
+    if (row != SCREE_NO_ROW) {
+        scree_sum_row *sum = &state->sum[row];
+        scree_wrapping_add(&sum->fx, quanta[0]);
+        scree_wrapping_add(&sum->fy, quanta[1]);
+        if (state->dimension == 3) scree_wrapping_add(&sum->fz, quanta[2]);
+    }
     for (int i = 0; i < state->dimension; i++)
         scree_imposed(state)->force[node][i] += (double)quanta[i] * state->force_quantum;
 }
@@ -61,10 +64,10 @@ void scree_imposed_add(scree_state *state, size_t node, const int64_t quanta[3])
 void scree_imposed_add_work(scree_state *state)
 {
     scree_integer_sum power = {0};
-    scree_vector velocity, spin;
+    scree_vector velocity;
     while (scree_integer_sum_next(&power, 1))
         for (size_t k = 0; k < scree_imposed(state)->count; k++) {
-            scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
+            scree_boundary_motion(state, k, velocity);
             scree_integer_sum_add(&power, scree_dot(scree_imposed(state)->force[k], velocity));
         }
     double work = 0.5 * state->step_size * scree_integer_sum_total(&power);
@@ -76,13 +79,12 @@ double scree_imposed_measure(const scree_state *state, scree_vector *area, doubl
 {
     enum { VOLUME = 9 };
     scree_integer_sum sum[10] = {0};
-    scree_vector origin, position, velocity, spin;
-    scree_body_position(state, scree_boundary_row(state, 0), origin);
+    scree_vector origin, position, velocity;
+    scree_boundary_position(state, 0, origin);
     while (scree_integer_sum_next(sum, 10))
         for (size_t k = 0; k < scree_boundary_count(state); k++) {
-            size_t row = scree_boundary_row(state, k);
-            scree_body_motion(state, row, velocity, spin);
-            scree_body_position(state, row, position);
+            scree_boundary_motion(state, k, velocity);
+            scree_boundary_position(state, k, position);
             scree_subtract(position, origin, position);
             scree_integer_sum_add(&sum[VOLUME], scree_dot(position, area[k]));
             for (int i = 0; i < state->dimension; i++)

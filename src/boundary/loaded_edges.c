@@ -19,8 +19,11 @@
 
 static double gap_to(const scree_state *state, const scree_wall *wall, size_t k)
 {
-    const scree_row *row = &state->row[state->row_of_id[scree_loop_of(state)->id[k]]];
-    return wall->normal[0] * row->x + wall->normal[1] * row->y - wall->position - row->radius;
+    const scree_loop *loop = scree_loop_of(state);
+    double x[2];
+    scree_loop_position(state, k, x);
+    return wall->normal[0] * x[0] + wall->normal[1] * x[1] - wall->position -
+           scree_boundary_radius(state, loop->id[k], &loop->body[k]);
 }
 
 /// The body at place k is at least as near to this wall as to the opposite one.

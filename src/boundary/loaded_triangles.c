@@ -9,7 +9,6 @@
 /// the pressure, and so does the gap between its rim and the plate (measure/hull.h). With an active side plate nothing
 /// is loaded: the sides are not free. Cost: O(triangles).
 #include "boundary/loaded_triangles.h"
-#include "state/body.h"
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
@@ -30,12 +29,13 @@ typedef struct marking {
     uint32_t *queue; ///< triangles
 } marking;
 
-static double gap_to(const scree_state *state, const scree_wall *wall, uint32_t id)
+static double gap_to(const marking *m, const scree_wall *wall, size_t node)
 {
-    size_t row = state->row_of_id[id];
+    const uint32_t id = m->hull->id[node];
+    const scree_boundary_body *body = &m->hull->body[node];
     scree_vector position;
-    scree_body_position(state, row, position);
-    return wall->normal[2] * position[2] - wall->position - state->row[row].radius;
+    scree_boundary_place(m->state, id, body, position);
+    return wall->normal[2] * position[2] - wall->position - scree_boundary_radius(m->state, id, body);
 }
 
 /// Marks the nodes that face a wall.
@@ -46,8 +46,8 @@ static void find_facing(const scree_model *model, const marking *m, int index)
     double nearest = INFINITY;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < m->hull->node_count; k++) {
-            double gap = gap_to(m->state, wall, m->hull->id[k]);
-            if (opposite->active && gap > gap_to(m->state, opposite, m->hull->id[k])) continue;
+            double gap = gap_to(m, wall, k);
+            if (opposite->active && gap > gap_to(m, opposite, k)) continue;
             if (pass == 0) nearest = fmin(nearest, gap);
             if (pass == 1 && gap <= fmax(nearest, model->mean_radius)) m->faces[k] = (uint8_t)(index + 1);
         }
@@ -57,8 +57,10 @@ static void find_facing(const scree_model *model, const marking *m, int index)
 static void area_vector(const marking *m, size_t t, scree_vector area)
 {
     scree_vector corner[3];
-    for (int c = 0; c < 3; c++)
-        scree_body_position(m->state, m->state->row_of_id[m->hull->id[m->hull->triangle[t][c]]], corner[c]);
+    for (int c = 0; c < 3; c++) {
+        const uint32_t node = m->hull->triangle[t][c];
+        scree_boundary_place(m->state, m->hull->id[node], &m->hull->body[node], corner[c]);
+    }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         area[k] = (corner[1][i] - corner[0][i]) * (corner[2][j] - corner[0][j]) -

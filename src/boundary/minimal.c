@@ -31,6 +31,7 @@
 #include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/imposed_gradient.h"
+#include "comm/comm.h"
 #include "measure/facets.h"
 #include "module/key_rows.h"
 #include "state/pressure.h"
@@ -87,11 +88,12 @@ static double double_product(const double a[9], const double b[9])
 }
 
 /// Adds what a node gives to V times the rate of change of the velocity gradient by all forces but the penalty, and to
-/// B, of which the upper half is enough.
+/// B, of which the upper half is enough; where it is with another process, that does so.
 static void add_node(const scree_state *state, size_t node, const scree_vector area, scree_integer_sum change[9],
                      scree_integer_sum mobility[9])
 {
     size_t row = scree_boundary_row(state, node);
+    if (row == SCREE_NO_ROW) return;
     const scree_sum_row *sum = &state->sum[row];
     const int64_t force[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
     double inverse_mass = 1 / state->row[row].mass;
@@ -108,7 +110,7 @@ static void predict(const scree_state *state, scree_vector *area, double volume,
                     double rate[9], double mobility[9])
 {
     scree_integer_sum sum[18] = {0}, *change = sum, *products = sum + 9;
-    while (scree_integer_sum_next(sum, 18))
+    while (scree_comm_sum_next(state, sum, 18))
         for (size_t k = 0; k < scree_imposed(state)->count; k++) add_node(state, k, area[k], change, products);
     for (int c = 0; c < 9; c++) {
         int upper = c / 3 <= c % 3 ? c : 3 * (c % 3) + c / 3;
@@ -164,9 +166,9 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
     double largest = 0, reach = 0;
     scree_vector origin, position;
     for (int i = 0; i < 9; i++) largest += fabs(stress[i]);
-    scree_body_position(state, scree_boundary_row(state, 0), origin);
+    scree_boundary_position(state, 0, origin);
     for (size_t k = 1; k < scree_imposed(state)->count; k++) {
-        scree_body_position(state, scree_boundary_row(state, k), position);
+        scree_boundary_position(state, k, position);
         for (int i = 0; i < state->dimension; i++) reach = fmax(reach, fabs(position[i] - origin[i]));
     }
     double scale = state->dimension == 3 ? reach / 6 : 0.5 * model->thickness;
@@ -192,7 +194,7 @@ static scree_status add_forces(const scree_context *c, scree_error *error)
     memset(imposed->force, 0, imposed->count * sizeof *imposed->force);
     if (!fits) {
         c->work->flags |= SCREE_FLAG_FORCE_RANGE;
-        c->work->flagged_id = state->id[scree_boundary_row(state, 0)];
+        c->work->flagged_id = scree_boundary_id(state, 0);
         return SCREE_OK;
     }
     scree_imposed_apply_stress(model, state, imposed->stress);
@@ -253,4 +255,5 @@ const scree_module scree_module_minimal = {
     .keys_count = 1,
     .numbers_size = sizeof(numbers),
     .boundary = &face,
+    .spreads = true,
 };

@@ -49,22 +49,23 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
 {
     double *points = NULL, *radius = NULL;
     scree_peel_rule rule;
-    uint32_t *past = NULL, *row = NULL;
-    const size_t grains = scree_grain_count(state);
-    scree_status status = scree_grains_by_id(state, &row, error);
-    if (!status) status = scree_facet_rule(model, state, row, &rule, &past, error);
+    uint32_t *past = NULL;
+    scree_grain_place *grain = NULL;
+    size_t grains = 0;
+    scree_status status = scree_grain_places(state, &grain, &grains, error);
+    if (!status) status = scree_facet_rule(model, state, grain, grains, &rule, &past, error);
     if (!status) status = scree_allocate(&points, 2 * grains, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, grains, sizeof *radius, error);
     if (!status) {
         for (size_t k = 0; k < grains; k++) {
-            points[2 * k] = state->row[row[k]].x;
-            points[2 * k + 1] = state->row[row[k]].y;
-            radius[k] = scree_body_bounding_radius(state, row[k]);
+            points[2 * k] = grain[k].position[0];
+            points[2 * k + 1] = grain[k].position[1];
+            radius[k] = grain[k].radius;
         }
         status = scree_outer_loop(points, radius, grains, 2 * model->mean_radius, &rule, ids, count, error);
     }
-    for (size_t k = 0; k < *count && !status; k++) (*ids)[k] = state->id[row[(*ids)[k]]];
-    scree_release(&row);
+    for (size_t k = 0; k < *count && !status; k++) (*ids)[k] = (uint32_t)grain[(*ids)[k]].id;
+    scree_release(&grain);
     scree_release(&past);
     scree_release(&points);
     scree_release(&radius);
@@ -79,6 +80,7 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
     loop->count = count;
     loop->updated = state->step;
     memcpy(loop->id, ids, count * sizeof *ids);
+    scree_boundary_tell(state, loop->id, loop->body, count);
     for (size_t k = 0; k < count; k++) {
         double x[2];
         scree_loop_position(state, k, x);
@@ -148,10 +150,10 @@ static outline_point point_of(const pressure_forces *forces, const double x[2])
 static inline void add_force(const pressure_forces *forces, size_t k, const int64_t f[2], const double newtons[2])
 {
     scree_state *state = forces->state;
-    scree_sum_row *sum = &state->sum[state->row_of_id[forces->loop->id[k]]];
-    if (forces->adds) {
-        scree_wrapping_add(&sum->fx, f[0]);
-        scree_wrapping_add(&sum->fy, f[1]);
+    const uint32_t row = scree_state_row_of(state, forces->loop->id[k]);
+    if (forces->adds && row != SCREE_NO_ROW) {
+        scree_wrapping_add(&state->sum[row].fx, f[0]);
+        scree_wrapping_add(&state->sum[row].fy, f[1]);
     }
     forces->loop->fx[k] += newtons[0];
     forces->loop->fy[k] += newtons[1];
@@ -175,8 +177,9 @@ static double loop_power(const scree_state *state)
 {
     const scree_loop *loop = scree_loop_of(state);
     for (size_t k = 0; k < loop->count; k++) {
-        const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
-        loop->term[k] = loop->fx[k] * row->vx + loop->fy[k] * row->vy;
+        scree_vector velocity;
+        scree_boundary_velocity(state, loop->id[k], &loop->body[k], velocity);
+        loop->term[k] = loop->fx[k] * velocity[0] + loop->fy[k] * velocity[1];
     }
     return scree_integer_sum_of(loop->term, loop->count);
 }

@@ -15,4 +15,5 @@ const scree_module scree_module_pressure_boundary = {
     .choice_of = CHOICE_OF(IS("stages.boundary"),
                            IS("boundary.lateral", .meaning = "traction on the Delaunay boundary of the assembly")),
     .boundary = &face,
+    .spreads = true,
 };

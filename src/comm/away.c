@@ -56,6 +56,14 @@ scree_status scree_parts_collect(const scree_state *state, void *list, size_t *c
     return SCREE_OK;
 }
 
+void scree_parts_tell(const scree_state *state, const uint32_t *id, size_t count, double *value, size_t each)
+{
+    if (!state->part) return;
+    for (size_t k = 0; k < count * each; k++)
+        if (scree_state_row_of(state, id[k / each]) == SCREE_NO_ROW) value[k] = -INFINITY;
+    scree_comm_maximum(state, value, count * each);
+}
+
 scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost, scree_error *error)
 {
     scree_parts *parts = work->parts;

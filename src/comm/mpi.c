@@ -88,6 +88,7 @@ void scree_comm_stop(scree_status status)
 }
 
 enum { BLOCK = 32, LIMBS = 3 };
+enum { MOST = 1 << 24 }; ///< numbers of one reduction
 
 /// All reductions of numbers: `count` of 8 bytes each.
 static void reduce(void *values, size_t count, MPI_Datatype type, MPI_Op operation)
@@ -136,12 +137,17 @@ static double of_order(int64_t order)
 void scree_comm_maximum(const scree_state *state, double *values, size_t count)
 {
     if (!is_joined(state)) return;
-    for (size_t begin = 0; begin < count; begin += BLOCK) {
-        int64_t order[BLOCK];
-        const size_t many = count - begin < BLOCK ? count - begin : BLOCK;
-        for (size_t k = 0; k < many; k++) order[k] = order_of(values[begin + k]);
-        reduce(order, many, MPI_INT64_T, MPI_MAX);
-        for (size_t k = 0; k < many; k++) values[begin + k] = of_order(order[k]);
+    // The integers lie where the doubles were.
+    int64_t order;
+    for (size_t k = 0; k < count; k++) {
+        order = order_of(values[k]);
+        memcpy(&values[k], &order, sizeof order);
+    }
+    for (size_t begin = 0; begin < count; begin += MOST)
+        reduce(values + begin, count - begin < MOST ? count - begin : MOST, MPI_INT64_T, MPI_MAX);
+    for (size_t k = 0; k < count; k++) {
+        memcpy(&order, &values[k], sizeof order);
+        values[k] = of_order(order);
     }
 }
 

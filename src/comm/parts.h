@@ -69,6 +69,11 @@ size_t scree_parts_count(size_t mine, size_t *counts);
 scree_status scree_parts_collect(const scree_state *state, void *list, size_t *count, size_t size,
                                  scree_error *error) SCREE_MUST_USE;
 
+/// Numbers about bodies: value[each * k ...], `each` of them, of the body id[k], which the process has filled in that
+/// has it. Where the state is a part all get them, in one reduction; nobody keeps track of who has which. All processes
+/// call it, with the same ids.
+void scree_parts_tell(const scree_state *state, const uint32_t *id, size_t count, double *value, size_t each);
+
 /// Another process will have this ghost; scree_parts_link tells it. Errors: memory.
 scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost *ghost,
                                scree_error *error) SCREE_MUST_USE;

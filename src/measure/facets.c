@@ -8,7 +8,6 @@
 
 #include "base/wrapping.h"
 #include "measure/delaunay_boundary.h"
-#include "state/body.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,29 +26,29 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
 {
     scree_facet facet = {.corners = state->dimension};
     scree_vector origin;
-    scree_body_position(state, scree_boundary_row(state, 0), origin);
+    scree_boundary_position(state, 0, origin);
     for (int c = 0; c < facet.corners; c++) {
         size_t next = index + (size_t)c < scree_loop_of(state)->count ? index + (size_t)c : 0;
         facet.node[c] = state->dimension == 3 ? scree_hull_of(state)->triangle[index][c] : next;
-        scree_body_position(state, scree_boundary_row(state, facet.node[c]), facet.position[c]);
+        scree_boundary_position(state, facet.node[c], facet.position[c]);
         for (int i = 0; i < 3; i++) facet.position[c][i] -= origin[i];
     }
     return facet;
 }
 
-/// Place of the body in `row` among the grains in the order of their ids.
-static uint32_t place_of(const scree_state *state, const uint32_t *grains, size_t row)
+/// Place of a body among the grains in the order of their ids.
+static uint32_t place_of(const scree_grain_place *grain, size_t grains, uint32_t id)
 {
-    size_t low = 0, high = scree_grain_count(state);
+    size_t low = 0, high = grains;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        *(state->id[grains[middle]] <= state->id[row] ? &low : &high) = middle;
+        *(grain[middle].id <= id ? &low : &high) = middle;
     }
     return (uint32_t)low;
 }
 
-scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const uint32_t *grains,
-                              scree_peel_rule *rule, uint32_t **positions, scree_error *error)
+scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const scree_grain_place *grain,
+                              size_t grains, scree_peel_rule *rule, uint32_t **positions, scree_error *error)
 {
     size_t d = (size_t)state->dimension, count = scree_facet_count(state);
     *positions = NULL;
@@ -62,7 +61,7 @@ scree_status scree_facet_rule(const scree_model *model, const scree_state *state
     for (size_t k = 0; k < count; k++) {
         scree_facet facet = scree_facet_get(state, k);
         for (size_t c = 0; c < d; c++)
-            (*positions)[k * d + c] = place_of(state, grains, scree_boundary_row(state, facet.node[c]));
+            (*positions)[k * d + c] = place_of(grain, grains, scree_boundary_id(state, facet.node[c]));
     }
     scree_peel_rule_sort(*positions, count, state->dimension);
     rule->facet = *positions;
@@ -135,10 +134,10 @@ static void areas_2d(const scree_model *model, const scree_state *state, scree_v
     const double half = 0.5 * model->thickness;
     scree_vector before, here, behind;
     if (count == 0) return;
-    scree_body_position(state, scree_boundary_row(state, count - 1), before);
-    scree_body_position(state, scree_boundary_row(state, 0), here);
+    scree_boundary_position(state, count - 1, before);
+    scree_boundary_position(state, 0, here);
     for (size_t k = 0; k < count; k++) {
-        scree_body_position(state, scree_boundary_row(state, k + 1 < count ? k + 1 : 0), behind);
+        scree_boundary_position(state, k + 1 < count ? k + 1 : 0, behind);
         area[k][0] = half * (behind[1] - before[1]);
         area[k][1] = -half * (behind[0] - before[0]);
         area[k][2] = 0;

@@ -2,7 +2,6 @@
 /// O(triangles).
 #include "measure/hull.h"
 #include "measure/delaunay_boundary.h"
-#include "state/body.h"
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
@@ -11,7 +10,8 @@
 
 void scree_hull_position(const scree_state *state, size_t node, scree_vector position)
 {
-    scree_body_position(state, state->row_of_id[scree_hull_of(state)->id[node]], position);
+    const scree_hull *hull = scree_hull_of(state);
+    scree_boundary_place(state, hull->id[node], &hull->body[node], position);
 }
 
 void scree_hull_corners(const scree_state *state, size_t triangle, const scree_vector origin, scree_vector corner[3])

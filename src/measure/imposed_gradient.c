@@ -72,4 +72,5 @@ const scree_module scree_module_imposed_gradient = {
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
     .columns = SCREE_RESULTS(columns, take_ratio),
+    .spreads = true,
 };

@@ -41,9 +41,11 @@ void scree_outline_visit_run(const scree_state *state, scree_outline_visitor *vi
 /// Present position [m] of the body at place k of the loop.
 static inline void scree_loop_position(const scree_state *state, size_t k, double position[2])
 {
-    const scree_row *row = &state->row[state->row_of_id[scree_loop_of(state)->id[k]]];
-    position[0] = row->x;
-    position[1] = row->y;
+    const scree_loop *loop = scree_loop_of(state);
+    scree_vector place;
+    scree_boundary_place(state, loop->id[k], &loop->body[k], place);
+    position[0] = place[0];
+    position[1] = place[1];
 }
 
 static inline size_t scree_loop_next(const scree_loop *loop, size_t k)

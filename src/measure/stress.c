@@ -101,7 +101,7 @@ static void add_drive(const scree_state *state, const scree_vector centre, doubl
 {
     scree_vector point;
     for (size_t k = 0; k < scree_imposed(state)->count; k++) {
-        scree_body_position(state, scree_boundary_row(state, k), point);
+        scree_boundary_position(state, k, point);
         for (int i = 0; i < 3; i++) point[i] -= centre[i];
         add_product(sum, scree_imposed(state)->force[k], point);
     }

@@ -62,6 +62,7 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     counts->worst = fmax(parts->worst, counts->imbalance);
     counts->gathers = (double)parts->gathers;
     counts->gathered = (double)sum[place_of(SCREE_TRAFFIC_GATHERS, BYTES)] / processes;
+    counts->placed = (double)sum[place_of(SCREE_TRAFFIC_PLACES, BYTES)] / processes;
     counts->stepping = NANOSECOND * (double)sum[STEPPING] / processes;
     for (scree_traffic_purpose p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) {
         counts->wait[p] = NANOSECOND * (double)sum[place_of(p, TIME)] / processes;
@@ -89,19 +90,19 @@ void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
         log, SCREE_LOG_INFO,
         "a process: %.1f bodies of others near its own (at most %.1f), %.2f reductions a step of %.0f bytes "
         "in all; the fullest part has %.3f times the mean of the bodies, at a list at most %.3f; %.3g MB sent for "
-        "whole states (%.0f of them)",
+        "whole states (%.0f of them), %.3g MB for boundaries of the sample that were found anew",
         counts->ghosts[0], counts->ghosts[1], counts->reductions, counts->reduced, counts->imbalance, counts->worst,
-        1e-6 * counts->gathered, counts->gathers);
+        1e-6 * counts->gathered, counts->gathers, 1e-6 * counts->placed);
     double rest = counts->stepping;
     for (int p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) rest -= counts->wait[p];
     scree_log_write(log, SCREE_LOG_INFO,
                     "time of a process, mean (most): reductions %.3g s (%.3g), messages of steps %.3g s (%.3g), lists "
-                    "%.3g s (%.3g), whole states %.3g s (%.3g); all else %.3g of %.3g s",
+                    "%.3g s (%.3g), whole states %.3g s (%.3g), boundaries %.3g s (%.3g); all else %.3g of %.3g s",
                     counts->wait[SCREE_TRAFFIC_REDUCTIONS], counts->longest[SCREE_TRAFFIC_REDUCTIONS],
                     counts->wait[SCREE_TRAFFIC_STEPS], counts->longest[SCREE_TRAFFIC_STEPS],
                     counts->wait[SCREE_TRAFFIC_LISTS], counts->longest[SCREE_TRAFFIC_LISTS],
-                    counts->wait[SCREE_TRAFFIC_GATHERS], counts->longest[SCREE_TRAFFIC_GATHERS], rest,
-                    counts->stepping);
+                    counts->wait[SCREE_TRAFFIC_GATHERS], counts->longest[SCREE_TRAFFIC_GATHERS],
+                    counts->wait[SCREE_TRAFFIC_PLACES], counts->longest[SCREE_TRAFFIC_PLACES], rest, counts->stepping);
 }
 
 void scree_rank_counts_results(const scree_rank_counts *counts, scree_summary *summary)

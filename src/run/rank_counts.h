@@ -20,6 +20,7 @@ typedef struct scree_rank_counts {
     double imbalance,
         worst; ///< bodies of the fullest part over their mean: in the mean of the steps, largest at a list
     double gathers, gathered;               ///< bytes that a process has sent for whole states: mean
+    double placed;                          ///< bytes of places of its grains, when boundaries were found anew: mean
     double wait[SCREE_TRAFFIC_PURPOSES];    ///< s in calls for each purpose, mean of the processes
     double longest[SCREE_TRAFFIC_PURPOSES]; ///< s, of the process with most
     double stepping;                        ///< s, wall time, mean

@@ -33,7 +33,7 @@ static scree_status check_module(int slot, const char *what, scree_error *error)
 }
 
 /// Of the stage that the state is in: modules with something to do, and the boundary.
-static scree_status check_stage(scree_simulation *s, bool begun, scree_error *error)
+static scree_status check_stage(scree_simulation *s, scree_error *error)
 {
     const scree_config_stage *stage = &s->model.stages[s->state.stage.index];
     const scree_context context = scree_step_context(s);
@@ -46,9 +46,6 @@ static scree_status check_stage(scree_simulation *s, bool begun, scree_error *er
         if (!status && acts && !module->spreads && (!module->in_use || module->in_use(&context)))
             status = check_module(m, "what acts in a stage:", error);
     }
-    const bool repeats = begun ? scree_cell(&s->state)->directions != 0 : s->model.periodic != 0;
-    if (!status && !s->boundary->open && !repeats)
-        status = refuse("the Delaunay boundary of the sample, which is kept in a stage", stage->name, error);
     return status;
 }
 
@@ -60,7 +57,7 @@ static scree_status check_stages(scree_simulation *s, scree_error *error)
     for (int64_t k = 0; k < s->model.stage_count && !status; k++) {
         s->state.stage.index = k;
         s->boundary = scree_model_boundary_of(&s->model, k);
-        status = check_stage(s, false, error);
+        status = check_stage(s, error);
     }
     s->state.stage.index = index;
     s->boundary = boundary;
@@ -143,7 +140,7 @@ scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
     if (scree_comm_size() == 1 || state->part) return SCREE_OK;
-    scree_status status = check_stage(s, true, error);
+    scree_status status = check_stage(s, error);
     if (!status && s->work.valid) status = scree_contacts_save(state, &s->work, error);
     if (!status && !s->work.parts && !all_have(scree_state_checksum(&s->stage_model, state)))
         status = scree_error_set(error, SCREE_ERROR_INPUT,

@@ -291,9 +291,93 @@ stages:
 $rest
 EOF
 sed -i "s/cells: no/cells: no, orientation: yes/" gear.yaml
+# Pressure on the Delaunay boundary, which is found anew many times and loses some of its bodies; the same in space; plates on
+# all sides, then the pressure on two of them.
+cat >sides.yaml <<EOF
+scree: 1
+name: sides
+seed: 16
+$materials
+$discs
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {lateral: pressure, every: 60}
+loads: [{load: outlet, lower: [14 mm, 14 mm], upper: [40 mm, 18 mm], every: 2500}]
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 2}
+  - {stage: confine, pressure: 4 kPa, unbalanced_limit: 0.3, friction: 0.05}
+  - {stage: compress, strain: 4 %, rate: 10 1/s}
+$rest
+EOF
+cat >core.yaml <<EOF
+scree: 1
+name: core
+dimension: 3
+seed: 17
+$materials
+$spheres
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.4}
+boundary: {lateral: pressure, every: 30}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}
+  - {stage: confine, pressure: 4 kPa, unbalanced_limit: 0.9}
+  - {stage: compress, strain: 2 %, rate: 20 1/s}
+$rest
+EOF
+cat >mould.yaml <<EOF
+scree: 1
+name: mould
+seed: 18
+materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.2}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 60}
+contact: {law: linear}
+integrator: {scheme: position_verlet, step_fraction: 0.6}
+boundary: {every: 30}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1}
+  - {stage: confine, boundary: plates, pressure: 8 kPa, unbalanced_limit: 0.9}
+  - {stage: compress, boundary: plates, name: press, strain: 0.5 %, rate: 10 1/s}
+  - {stage: compress, boundary: pressure, strain: 2 %, rate: 20 1/s}
+$rest
+EOF
+# Rates that are imposed on the boundary itself.
+cat >loose.yaml <<EOF
+scree: 1
+name: loose
+seed: 19
+$materials
+$discs
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.4}
+boundary: {every: 40}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}
+  - {stage: confine, boundary: pressure, pressure: 4 kPa, unbalanced_limit: 0.9}
+  - {stage: deform, boundary: minimal, velocity_gradient: {yy: -20 1/s}, strain: 2 %}
+  - {stage: deform, boundary: affine, name: stiff, velocity_gradient: {xx: 0, xy: 20 1/s, yx: 20 1/s, yy: 0}, strain: 0.5 %}
+$rest
+EOF
+cat >ball.yaml <<EOF
+scree: 1
+name: ball
+dimension: 3
+seed: 20
+$materials
+$spheres
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: velocity_verlet, step_fraction: 0.4}
+boundary: {every: 40}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1}
+  - {stage: confine, boundary: minimal, pressure: 4 kPa, unbalanced_limit: 0.9}
+  - {stage: deform, boundary: minimal, velocity_gradient: {zz: -20 1/s}, strain: 1 %}
+  - {stage: deform, boundary: affine, name: stiff, velocity_gradient: {xx: 0, yy: 0, zz: -20 1/s, xy: 0, xz: 0, yx: 0, yz: 0, zx: 0, zy: 0}, strain: 0.3 %}
+$rest
+EOF
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear; do
+for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -314,7 +398,7 @@ same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
 
 # --- what cannot be spread
 refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@:2}"; same "$(grep -c 'cannot be spread' <<<"$output")" 1 "one message: $output"; [ -e no ] && complain "a refused run has made its folder"; }
-refused "boundary 'pressure'" biaxial --quick -o no
+refused "boundary 'membrane'" sides.yaml --set boundary.lateral=membrane -o no
 refused "stage 'collide'" restitution -o no
 refused "acts in a stage: 'deformation'" ddem-uniaxial --quick -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
@@ -346,17 +430,25 @@ expect 0 '|warning' on 2 --restart again --from 5
 grep -q 'goes on from step [1-9]' again/log.txt || complain 'pour does not go on from its middle'
 same "$(checksum again)" "$(checksum one-pour)" 'pour goes on with two processes in place of three'
 
-# --- a process dies; the checkpoint is whole, and any number of processes goes on from it
-mpirun --oversubscribe -n 4 "$scree" run drum.yaml -o killed --set output.checkpoint_steps=200 --quiet --threads 1 >killed.txt 2>&1 </dev/null &
+# --- the boundary has lost bodies, and is told anew where a run goes on
+same "$("$scree" get one-sides outlet_outflow)" 3 'grains of sides that were taken out'
+expect 0 '|warning' on 3 mould.yaml -o again -f --set output.snapshots=10 --threads 1
+expect 0 '|warning' on 2 --restart again --from 5
+grep -q 'goes on from step [1-9]' again/log.txt || complain 'mould does not go on from its middle'
+same "$(checksum again)" "$(checksum one-mould)" 'mould goes on with two processes in place of three'
+
+# --- a process dies while servos read the boundary; the checkpoint is whole, and any number of processes goes on from it
+mpirun --oversubscribe -n 4 "$scree" run sides.yaml -o killed --set output.checkpoint_steps=500 --quiet --threads 1 >killed.txt 2>&1 </dev/null &
 job=$!
-for ((i = 0; i < 600; i++)); do [ "$(find killed/parts -name '*checkpoint*' 2>/dev/null | wc -l)" -ge 1 ] && break; sleep 0.1; done
+for ((i = 0; i < 600; i++)); do [ "$(find killed/parts -name 'checkpoint-*[1-9].h5' 2>/dev/null | wc -l)" -ge 1 ] && break; sleep 0.1; done
 victim=$(pgrep -P $job | tail -n 1)
 kill -9 "$victim"
 wait $job && complain 'mpirun went on without one of its processes'
 cp -r killed killed-1
 cp -r killed killed-3
 expect 0 '|warning' "$scree" run --restart killed-1 --quiet
-same "$(checksum killed-1)" "$(checksum one-drum)" 'restart on one process'
+same "$(checksum killed-1)" "$(checksum one-sides)" 'restart on one process'
 expect 0 '|warning' on 3 --restart killed-3
-same "$(checksum killed-3)" "$(checksum one-drum)" 'restart on three processes'
+same "$(checksum killed-3)" "$(checksum one-sides)" 'restart on three processes'
+grep -q 'goes on from step [1-9]' killed-3/log.txt || complain 'the run goes on from its begin'
 finish
