@@ -338,7 +338,7 @@ stages:
   - {stage: prepare, method: drop_and_roll, aspect_ratio: 1}
   - {stage: confine, boundary: plates, pressure: 8 kPa, unbalanced_limit: 0.9}
   - {stage: compress, boundary: plates, name: press, strain: 0.5 %, rate: 10 1/s}
-  - {stage: compress, boundary: pressure, strain: 2 %, rate: 20 1/s}
+  - {stage: compress, boundary: pressure, strain: 6 %, rate: 20 1/s}
 $rest
 EOF
 # Rates that are imposed on the boundary itself.
@@ -371,7 +371,7 @@ boundary: {every: 40}
 stages:
   - {stage: prepare, method: drop_and_roll, aspect_ratio: 1}
   - {stage: confine, boundary: minimal, pressure: 4 kPa, unbalanced_limit: 0.9}
-  - {stage: deform, boundary: minimal, velocity_gradient: {zz: -20 1/s}, strain: 1 %}
+  - {stage: deform, boundary: minimal, velocity_gradient: {zz: -20 1/s}, strain: 8 %}
   - {stage: deform, boundary: affine, name: stiff, velocity_gradient: {xx: 0, yy: 0, zz: -20 1/s, xy: 0, xz: 0, yx: 0, yz: 0, zx: 0, zy: 0}, strain: 0.3 %}
 $rest
 EOF
