@@ -210,6 +210,7 @@ static scree_status add_groups(scree_vtp *vtp, const scree_state *state, const s
     for (size_t k = 0; k < scree_field_total() && !status; k++) {
         const scree_field *field = scree_field_at(k);
         if (!field->group || (field->group != points && field->group != cells)) continue;
+        if (field->role == SCREE_FIELD_DERIVED) continue;
         // `loaded` belongs to the edge that begins at the body, the rest to the body.
         bool of_cells = points == cells ? strcmp(field->name, "boundary/loaded") == 0 : field->group == cells;
         scree_array array;
