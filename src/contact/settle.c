@@ -1,6 +1,8 @@
 /// Breaking in the middle of a step: settle.h.
+// Their names come before those of the kernels, which are short.
 #include "comm/comm.h"
 #include "comm/parts.h"
+
 #include "contact/settle.h"
 
 #include "state/periodic.h"
@@ -172,14 +174,23 @@ static scree_status find(const scree_model *model, const scree_state *state, con
     return status;
 }
 
-/// Of the contact, from where its first body is; a ghost of it may be elsewhere.
-static void place(const scree_state *state, contact_settled *settled)
+/// Places of the contacts, from where their first bodies are; a ghost of one may be elsewhere.
+static scree_status place(const scree_state *state, contact_settled *settled, size_t count, scree_error *error)
 {
-    scree_vector body = {-INFINITY, -INFINITY, -INFINITY};
-    const uint32_t row = scree_state_row_of(state, settled->first);
-    if (row != SCREE_NO_ROW) scree_body_position(state, row, body);
-    scree_comm_maximum(state, body, 3);
-    for (int k = 0; k < 3; k++) settled->place[k] = body[k] - settled->place[k];
+    scree_vector *body = NULL;
+    uint32_t *id = NULL;
+    scree_status status = scree_allocate(&body, count, sizeof *body, error);
+    if (!status) status = scree_allocate(&id, count, sizeof *id, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        const uint32_t row = scree_state_row_of(state, id[k] = settled[k].first);
+        if (row != SCREE_NO_ROW) scree_body_position(state, row, body[k]);
+    }
+    if (!status) scree_parts_tell(state, id, count, (double *)body, 3);
+    for (size_t k = 0; k < count && !status; k++)
+        if (!settled[k].parted) scree_subtract(body[k], settled[k].place, settled[k].place);
+    scree_release(&body);
+    scree_release(&id);
+    return status;
 }
 
 scree_status contact_settle(const scree_model *model, scree_state *state, scree_work *work, contact_settled **settled,
@@ -198,10 +209,7 @@ scree_status contact_settle(const scree_model *model, scree_state *state, scree_
     if (state->part) scree_comm_add_back(state, work);
     if ((status = scree_parts_collect(state, settled, count, sizeof **settled, error))) return status;
     sort(*settled, *count);
-    for (size_t k = 0; k < *count; k++) {
-        if ((*settled)[k].parted) continue;
-        place(state, &(*settled)[k]);
-        contact_add_virial(state, (const double(*)[9])(*settled)[k].virial);
-    }
-    return SCREE_OK;
+    for (size_t k = 0; k < *count; k++)
+        if (!(*settled)[k].parted) contact_add_virial(state, (const double(*)[9])(*settled)[k].virial);
+    return *count > 0 ? place(state, *settled, *count, error) : SCREE_OK;
 }

@@ -81,7 +81,7 @@ static void name_relation(const scree_theory_pile_of *of, scree_oriented o, scre
     char wanted[sizeof error->accepted];
     if (strcmp(error->field, "eta") != 0 || isnan(of->tau)) return;
     (void)snprintf(wanted, sizeof wanted, "%s", error->accepted);
-    (void)snprintf(error->field, sizeof error->field, "tau");
+    (void)scree_error_key(error, SCREE_ERROR_INPUT, "tau");
     (void)snprintf(error->accepted, sizeof error->accepted, "%.150s; this is eta = %.3g, mu = %.3g", wanted, o.eta,
                    o.mu);
 }

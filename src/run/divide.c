@@ -60,12 +60,9 @@ scree_status scree_case_divide(const scree_case *c, const scree_case_summary *su
 {
     scree_handle_check(c, "a case");
     scree_model model;
-    scree_status status = scree_model_build(&c->config, &model, error);
-    if (status) {
-        scree_case_locate(c, error);
-        return status;
-    }
-    if ((status = check(c, processes, error))) return status;
+    scree_status status = scree_case_model(c, &model, error);
+    if (!status) status = check(c, processes, error);
+    if (status) return status;
     const double all = (double)summary->particles, bodies = all / processes;
     const double ghosts = ghosts_of(model.dimension, bodies, all);
     const double steps = summary->stepping - summary->preparation;

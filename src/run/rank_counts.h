@@ -11,16 +11,16 @@
 typedef struct scree_rank_counts {
     int processes; ///< 0: there was one, or no step
     double steps;
-    double ghosts[2];   ///< of a process in a step: mean, of the process with most
-    double messages[2]; ///< in a step, of all processes: those of steps; those of lists, spread over the steps
-    double bytes[2];    ///< of these
-    double needed;      ///< bytes that the declared fields of the ghosts need in a step, of all processes
-    double reductions;  ///< of a process in a step
-    double reduced;     ///< bytes of their numbers
-    double imbalance,
-        worst; ///< bodies of the fullest part over their mean: in the mean of the steps, largest at a list
-    double gathers, gathered;               ///< bytes that a process has sent for whole states: mean
-    double placed;                          ///< bytes of places of its grains, when boundaries were found anew: mean
+    double ghosts[2];         ///< of a process in a step: mean, of the process with most
+    double messages[2];       ///< in a step, of all processes: those of steps; those of lists, spread over the steps
+    double bytes[2];          ///< of these
+    double needed;            ///< bytes that the declared fields of the ghosts need in a step, of all processes
+    double reductions;        ///< of a process in a step
+    double reduced;           ///< bytes of their numbers
+    double imbalance;         ///< bodies of the fullest part over their mean, in the mean of the steps
+    double worst;             ///< the same when a list was made, the largest
+    double gathers, gathered; ///< bytes that a process has sent for whole states: mean
+    double placed;            ///< bytes of places of its grains, when boundaries were found anew: mean
     double wait[SCREE_TRAFFIC_PURPOSES];    ///< s in calls for each purpose, mean of the processes
     double longest[SCREE_TRAFFIC_PURPOSES]; ///< s, of the process with most
     double stepping;                        ///< s, wall time, mean

@@ -21,15 +21,19 @@
 
 #define BODIES_A_THREAD 4000
 
+scree_status scree_case_model(const scree_case *c, scree_model *model, scree_error *error)
+{
+    scree_status status = scree_model_build(&c->config, model, error);
+    if (status) scree_case_locate(c, error);
+    return status;
+}
+
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
 {
     memset(s, 0, sizeof *s);
     s->c = c;
-    scree_status status = scree_model_build(&c->config, &s->model, error);
-    if (status) {
-        scree_case_locate(c, error);
-        return status;
-    }
+    scree_status status = scree_case_model(c, &s->model, error);
+    if (status) return status;
     if ((status = scree_state_open(&s->state, s->model.dimension, error))) return status;
     scree_state_set_laws(&s->state, &s->model);
     s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;

@@ -4,6 +4,9 @@
 
 #include "run/stage.h"
 
+/// The model of a case. Errors: scree_model_build's, at their place in the case.
+scree_status scree_case_model(const scree_case *c, scree_model *model, scree_error *error) SCREE_MUST_USE;
+
 /// Builds model and work; the first stage has not begun. Errors: model_build's, memory.
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s,
                                    scree_error *error) SCREE_MUST_USE;

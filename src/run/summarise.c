@@ -3,6 +3,7 @@
 #include "case/case.h"
 #include "run/estimate.h"
 #include "run/quasistatic.h"
+#include "run/simulation.h"
 #include "shape/wall_set.h"
 
 #include <math.h>
@@ -60,11 +61,8 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
 {
     scree_handle_check(c, "a case");
     scree_model model;
-    scree_status status = scree_model_build(&c->config, &model, error);
-    if (status) {
-        scree_case_locate(c, error);
-        return status;
-    }
+    scree_status status = scree_case_model(c, &model, error);
+    if (status) return status;
     *summary = (scree_case_summary){.particles = (uint64_t)c->config.particles.count,
                                     .step = model.step,
                                     .largest_step = model.largest_step,
@@ -106,12 +104,9 @@ scree_status scree_case_warn(const scree_case *c, void (*visit)(void *user, cons
 {
     scree_handle_check(c, "a case");
     scree_model model;
-    scree_status status = scree_model_build(&c->config, &model, error);
+    scree_status status = scree_case_model(c, &model, error);
     listener to = {visit, user};
     scree_log log = {.sink = forward, .user = &to};
-    if (status)
-        scree_case_locate(c, error);
-    else
-        scree_quasistatic_warn(&model, &log);
+    if (!status) scree_quasistatic_warn(&model, &log);
     return status;
 }

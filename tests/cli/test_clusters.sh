@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Under a batch system: SIGUSR1 ends a run after a checkpoint, the script of docs/clusters.md queues the job again and
 # the run goes on with the same bits; several processes of a launcher are refused, by one of them.
+# shellcheck source=tests/cli/job.sh
+. "$(dirname "$0")/job.sh"
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
-documents=${SCREE_SOURCE_DIR:?}/docs
 
 # --- a launcher of MPI, as it looks to its processes
 refusal='started 4 times by a launcher of MPI .*each of the 4 would run the whole case'
@@ -32,25 +33,14 @@ else
 fi
 
 # --- the script of the documents, with the signal that SLURM sends it; `sbatch` is a call of bash here
-mkdir programs
-# shellcheck disable=SC2016
-printf '#!/bin/sh\necho "$@" >>requeued.txt\n' >programs/scontrol
-printf '#!/bin/sh\nexec "%s" "$@" --no-figures\n' "$scree" >programs/scree
-chmod +x programs/*
-export PATH=$scratch/programs:$PATH SLURM_CPUS_PER_TASK=1 SLURM_JOB_ID=17
-awk '/^    #!\/bin\/bash/ {on = 1} on && !/^    / {exit} on {print substr($0, 5)}' "$documents/clusters.md" >job.sh
-grep -q '^#SBATCH --signal=B:USR1@' job.sh || complain "the script of docs/clusters.md was not found"
+make_programs
+export SLURM_CPUS_PER_TASK=1 SLURM_JOB_ID=17
+job_script 'A run under SLURM'
 "$scree" run biaxial -o whole -q --no-figures --quick --threads 1 --set particles.count=40 --set 'stages.compress.strain=4 %' \
     --set 'stages.compress.rate=1e-2 1/s' --set stages.confine.friction=0.4 --set 'integrator.step=4e-5 s' \
     --set 'measure.windows=[]' --set output.snapshots=1 || complain "the run that is not interrupted"
 cp whole/case.yaml big.yaml
-bash job.sh 2>job.txt &
-job=$!
-wait_for 'confine ended' out/log.txt
-kill -USR1 $job
-wait $job
-same $? 130 "exit status of a job at its limit: $(cat job.txt)"
-same "$(cat requeued.txt)" 'requeue 17' "what was queued again"
+stop_job 'confine ended'
 expect 0 '' bash job.sh
 same "$(cat requeued.txt)" 'requeue 17' "a job that is done is not queued again"
 same "$("$scree" get out state_checksum)" "$("$scree" get whole state_checksum)" "bits of the run that was queued again"

@@ -2,9 +2,10 @@
 # Around a run on several processes: what it takes (`scree check --ranks`), what it has sent (log.txt, summary.json),
 # members of sweeps on several processes, and the SLURM script of docs/clusters.md with the signal that mpirun forwards.
 # Without MPI: the estimate, and what is refused.
+# shellcheck source=tests/cli/job.sh
+. "$(dirname "$0")/job.sh"
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
-documents=${SCREE_SOURCE_DIR:?}/docs
 cat >shear.yaml <<'END'
 scree: 1
 name: shear
@@ -63,12 +64,10 @@ fi
 command -v mpirun >/dev/null || { echo 'skipped: there is no mpirun'; exit 77; }
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 # mpirun in a job that is none: without SLURM's variables, on more processes than there are cores; says how it was called.
-mkdir programs
-printf '#!/bin/bash\nprintf "%%s " "$@" >>"%s/launched.txt"\necho >>"%s/launched.txt"\nunset SLURM_JOB_ID SLURM_NTASKS\nexec "%s" --oversubscribe "$@"\n' "$scratch" "$scratch" "$(command -v mpirun)" >programs/mpirun
-printf '#!/bin/sh\necho "$@" >>requeued.txt\n' >programs/scontrol
-printf '#!/bin/sh\nexec "%s" "$@" --no-figures\n' "$scree" >programs/scree
-chmod +x programs/*
-export PATH=$scratch/programs:$PATH
+launcher=$(command -v mpirun)
+make_programs
+printf '#!/bin/bash\nprintf "%%s " "$@" >>"%s/launched.txt"\necho >>"%s/launched.txt"\nunset SLURM_JOB_ID SLURM_NTASKS\nexec "%s" --oversubscribe "$@"\n' "$scratch" "$scratch" "$launcher" >programs/mpirun
+chmod +x programs/mpirun
 sed 's/shear.yaml/rotation-length\nquick: yes/' few.yaml >turned.yaml
 expect 2 "stage 'rotate_particle' cannot be spread" "$scree" sweep turned.yaml -o no --ranks 2 --slurm no.sh
 expect 0 'sbatch array.sh' "$scree" sweep few.yaml -o array --ranks 2 --threads 1 --slurm array.sh
@@ -111,18 +110,11 @@ grep -qE 'time of a process, mean \(most\): reductions [0-9.e-]+ s ' $folder/log
 
 # --- the script of the documents for one run on several processes: stopped at its limit, queued again, gone on
 export SLURM_CPUS_PER_TASK=1 SLURM_JOB_ID=17 SLURM_NTASKS=3
-awk '/^## A run of several processes under SLURM/ {here = 1} here && /^    #!\/bin\/bash/ {on = 1} on && !/^    / {exit} on {print substr($0, 5)}' "$documents/clusters.md" >job.sh
-grep -q '^#SBATCH --signal=B:USR1@' job.sh || complain 'the script of docs/clusters.md was not found'
+job_script 'A run of several processes under SLURM'
 expect 0 '' bash -n job.sh
 cp shear.yaml big.yaml
 rm launched.txt
-bash job.sh 2>job.txt &
-job=$!
-wait_for 'prepare ended' out/log.txt
-kill -USR1 $job
-wait $job
-same $? 130 "exit status of a job at its limit: $(cat job.txt)"
-same "$(cat requeued.txt)" 'requeue 17' 'what was queued again'
+stop_job 'prepare ended'
 SLURM_NTASKS=2 bash job.sh 2>>job.txt || complain "the second job: $(cat job.txt)"
 same "$(cat requeued.txt)" 'requeue 17' 'a job that is done is not queued again'
 same "$(cut -d' ' -f1,2,4,5 launched.txt | tr '\n' ';')" '-n 3 run big.yaml;-n 2 run --restart;' 'how the jobs were started'
