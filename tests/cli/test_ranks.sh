@@ -375,9 +375,42 @@ stages:
   - {stage: deform, boundary: affine, name: stiff, velocity_gradient: {xx: 0, yy: 0, zz: -20 1/s, xy: 0, xz: 0, yx: 0, yz: 0, zx: 0, zy: 0}, strain: 0.3 %}
 $rest
 EOF
+# A membrane around a sample that was pressed before, and from the begin; in space.
+cat >sleeve.yaml <<EOF
+scree: 1
+name: sleeve
+seed: 21
+$materials
+$discs
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {lateral: membrane, membrane_stiffness: 1 N/mm, every: 60}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 2}
+  - {stage: confine, boundary: pressure, pressure: 4 kPa, unbalanced_limit: 0.9}
+  - {stage: confine, name: wrap, pressure: 4 kPa, unbalanced_limit: 0.5}
+  - {stage: compress, strain: 2 %, rate: 10 1/s}
+$rest
+EOF
+cat >tube.yaml <<EOF
+scree: 1
+name: tube
+dimension: 3
+seed: 22
+$materials
+$spheres
+contact: {law: hertz_mindlin, tangential_history: rescaled}
+integrator: {scheme: position_verlet, step_fraction: 0.4}
+boundary: {lateral: membrane, membrane_stiffness: 100 N/m, every: 30}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}
+  - {stage: confine, pressure: 4 kPa, unbalanced_limit: 0.9, stress_tolerance: 0.3}
+  - {stage: compress, strain: 0.5 %, rate: 20 1/s}
+$rest
+EOF
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
-for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball; do
+for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -398,7 +431,6 @@ same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
 
 # --- what cannot be spread
 refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@:2}"; same "$(grep -c 'cannot be spread' <<<"$output")" 1 "one message: $output"; [ -e no ] && complain "a refused run has made its folder"; }
-refused "boundary 'membrane'" sides.yaml --set boundary.lateral=membrane -o no
 refused "stage 'collide'" restitution -o no
 refused "acts in a stage: 'deformation'" ddem-uniaxial --quick -o no
 expect 2 'there is no key' on 2 shear.yaml -o no --set particles.many=1
