@@ -4,13 +4,15 @@
 #     records.sh keep    OUT RECORDS      members of OUT/SWEEP that are done are added to RECORDS/SWEEP.tar.xz
 #     records.sh restore OUT RECORDS      RECORDS/SWEEP.tar.xz -> OUT/SWEEP; members that are there, even in part, stay as they are
 # A member that was put back is done for a sweep: its case and its summary.json say so. It has no snapshots, and its
-# series.csv has the columns of the curves of its sweep alone, to seven digits. Sweeps that average over snapshots
-# (`ensemble`) are not kept, nor are members that are not of the sweep any more.
+# series.csv has the columns of the curves of its sweep alone, to seven digits. Of a sweep that averages over snapshots
+# (`ensemble`) each member has those, to 24 bits (`scree export --archive`; the program is $SCREE, or build/scree).
+# Members that are not of the sweep any more are not kept.
 set -eu
 export LC_ALL=C
 sweeps=$(dirname "$(realpath "$0")")/../cases/sweeps
+scree=${SCREE:-$sweeps/../../build/scree}
 what=${1-} out=${2-} records=${3-}
-[ -n "$records" ] || { sed -n '2,8s/^# //p' "$0" >&2; exit 2; }
+[ -n "$records" ] || { sed -n '2,9s/^# //p' "$0" >&2; exit 2; }
 
 # Columns that the mean curves of a sweep are made of; the stage tells which rows are those of the loading.
 curve_columns() {
@@ -44,7 +46,7 @@ finished() {
 
 # Lays the members of the sweep $1 into the folder $2, beside those that are there; drops what is no member any more.
 gather() {
-    local columns member from to
+    local columns member from to stage
     columns=$(curve_columns "$sweeps/$(basename "$1").yaml")
     mkdir -p "$2/members"
     cp "$1/sweep.json" "$2/"
@@ -53,8 +55,17 @@ gather() {
     done
     finished "$1" | while read -r member; do
         from=$1/members/$member to=$2/members/$member
-        mkdir -p "$to"
-        cp "$from/case.yaml" "$from/summary.json" "$to/"
+        # What was kept of this run is what there would be again.
+        ! cmp -s "$from/summary.json" "$to/summary.json" || continue
+        rm -rf "$to"
+        if grep -q '^ensemble:' "$sweeps/$(basename "$1").yaml"; then
+            stage=$(sed -nE 's/^ensemble:.*[{, ](from|at): *([a-z_]+).*/\2/p' "$sweeps/$(basename "$1").yaml")
+            "$scree" export "$from" --archive "$to" ${stage:+--stage "$stage"} >/dev/null
+            rm -f "$to/series.csv"
+        else
+            mkdir -p "$to"
+            cp "$from/case.yaml" "$from/summary.json" "$to/"
+        fi
         [ -z "$columns" ] || cut_series "$from/series.csv" "$columns" >"$to/series.csv"
     done
 }
@@ -65,7 +76,6 @@ keep() {
     for sweep in "$out"/*/; do
         name=$(basename "$sweep") record=$records/$(basename "$sweep").tar.xz
         [ -e "$sweep/sweep.json" ] && [ -e "$sweeps/$name.yaml" ] && [ -n "$(finished "$sweep")" ] || continue
-        ! grep -q '^ensemble:' "$sweeps/$name.yaml" || continue
         [ ! -e "$record" ] || tar -C "$scratch" -xJf "$record"
         gather "${sweep%/}" "$scratch/$name"
         tar -C "$scratch" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 --mode=u=rwX,go=rX -cf - "$name" |

@@ -122,6 +122,13 @@ SCREE_API scree_status scree_export_lammps(const char *directory, const char *st
 /// on the first; point [m]. `scree_measure` reads it beside the dump of the grains.
 SCREE_API scree_status scree_export_contacts(const char *directory, const char *stage, const char *path, size_t *frames,
                                              scree_error *error);
+/// Keeps a run in little: the new folder `target` has its case, results and series, and a run.h5 of the last snapshot
+/// and of the last one of `stage` (name or kind; NULL: none), with numbers of 24 bits and without the state to go on
+/// from. Averages, figures of these snapshots and ensembles read it as they read the run. Errors: SCREE_ERROR_INPUT: no
+/// snapshot, no such stage, the folder is there; SCREE_ERROR_IO; memory.
+SCREE_API scree_status scree_export_archive(const char *directory, const char *stage, const char *target,
+                                            scree_error *error);
+
 /// Chooses the long side of PNG figures in pixels, "200" to "20000", for all that this process draws from now on; NULL:
 /// 2000, of charts 2160. The program `scree` calls this with SCREE_PIXELS. Errors: SCREE_ERROR_INPUT: no such number;
 /// nothing is changed then.

@@ -1,4 +1,5 @@
-/// scree export DIR [--stage STAGE] [-o FILE] [--contacts FILE]: snapshots as a dump of LAMMPS.
+/// scree export DIR [--stage STAGE] [-o FILE] [--contacts FILE]: snapshots as a dump of LAMMPS. --archive FOLDER: a run
+/// in little.
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -11,6 +12,13 @@ scree_status scree_verb_export(const scree_command *command)
     char standard[PATH_MAX];
     size_t frames;
     const char *directory = command->argument[0], *path = scree_command_value(command, "output");
+    const char *archive = scree_command_value(command, "archive");
+    if (archive) {
+        if (scree_export_archive(directory, scree_command_value(command, "stage"), archive, &error))
+            return scree_terminal_error("export", &error);
+        printf("%s: a run in little\n", archive);
+        return SCREE_OK;
+    }
     (void)snprintf(standard, sizeof standard, "%.*s/snapshots.lammpstrj", PATH_MAX - 32, directory);
     if (!path) path = standard;
     if (scree_export_lammps(directory, scree_command_value(command, "stage"), path, &frames, &error))

@@ -129,7 +129,7 @@ const scree_verb scree_results_verbs[] = {
     },
     {
         .name = "export",
-        .meaning = "write the snapshots of a run as a LAMMPS dump, for OVITO",
+        .meaning = "write the snapshots of a run as a LAMMPS dump, for OVITO, or keep a run in little",
         .text =
             "A frame a snapshot, with id, type (the material, from 1), position, radius, velocity, spin and mark (0: a "
             "grain) of each body, and in the plane its angle; the time step is the number of the snapshot. A "
@@ -149,9 +149,15 @@ const scree_verb scree_results_verbs[] = {
                    {.name = "contacts",
                     .value = "FILE",
                     .meaning = "their contacts, too, as a local dump: first, second (-1: a wall), force on the first, "
-                               "point"}},
+                               "point"},
+                   {.name = "archive",
+                    .value = "FOLDER",
+                    .meaning = "in place of a dump a new folder with case, results, series and the last snapshot (and "
+                               "that of --stage), in 24 bits, without what a run would go on from: averages and "
+                               "ensembles read it as they read the run"}},
         .example = {{"scree export out", "all snapshots"},
-                    {"scree export out --stage compress -o compress.lammpstrj", "those of one stage"}},
+                    {"scree export out --stage compress -o compress.lammpstrj", "those of one stage"},
+                    {"scree export pile --archive kept/pile", "what averages need, some hundred times smaller"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_export,
     },

@@ -4,6 +4,7 @@
 /// A periodic cell is the box, tilted where it is sheared; its first vector must lie along x and its second in the
 /// plane of x and y, as LAMMPS has it. In other directions the box ends where the bodies do. In the plane z is 0 and
 /// the box as high as the largest body. Cost: linear in bodies.
+#include "io/archive.h"
 #include "io/sample_file.h"
 #include "io/snapshot.h"
 
@@ -220,4 +221,21 @@ scree_status scree_export_contacts(const char *directory, const char *stage, con
                                    scree_error *error)
 {
     return write_frames(directory, stage, path, write_contacts, frames, error);
+}
+
+scree_status scree_export_archive(const char *directory, const char *stage, const char *target, scree_error *error)
+{
+    scree_snapshot_mark *mark = NULL;
+    size_t count = 0, kept = 0, of_stage = SIZE_MAX;
+    int64_t index[2];
+    scree_status status = scree_snapshot_marks(directory, &mark, &count, error);
+    if (!status && count == 0)
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no snapshot in '%s'", directory);
+    for (size_t k = 0; k < count && stage; k++)
+        if (scree_snapshot_mark_is_of(&mark[k], stage)) of_stage = k;
+    if (!status && stage && of_stage == SIZE_MAX) status = refuse_stage(stage, mark, count, error);
+    if (!status && of_stage < count - 1) index[kept++] = mark[of_stage].index;
+    if (!status) index[kept++] = mark[count - 1].index;
+    scree_release(&mark);
+    return status ? status : scree_run_archive(directory, target, index, kept, error);
 }

@@ -34,6 +34,24 @@ expect 0 'of-one.dump: 5 frames' "$scree" export plane --stage compress -o of-on
 expect 4 "^scree export: cannot open 'none/run.h5': No such file or directory\$" "$scree" export none
 expect 2 "^scree export: --stage: the run has no snapshot of a stage 'compres' \(accepted: prepare, confine, compress\)" \
     "$scree" export plane --stage compres
+# A run in little: the same averages, to 24 bits; nothing to go on from.
+expect 0 '^little: a run in little$' "$scree" export plane --archive little --stage confine
+[ "$(stat -c %s little/run.h5)" -lt $(($(stat -c %s plane/run.h5) / 3)) ] || complain "a run in little is $(stat -c %s little/run.h5) bytes of $(stat -c %s plane/run.h5)"
+for name in plane little; do
+    for at in confine compress; do
+        "$scree" measure $name --at $at --element 30 --no-figures -o $name-$at >/dev/null 2>&1 || complain "measure $name at $at"
+    done
+done
+for at in confine compress; do
+    same "$(awk -F, 'NR > 1 { printf "%.5g %.5g\n", $11, $8 }' little-$at/cuts.csv)" "$(awk -F, 'NR > 1 { printf "%.5g %.5g\n", $11, $8 }' plane-$at/cuts.csv)" "averages of a run in little at $at"
+done
+cmp -s little/series.csv plane/series.csv || complain "another series"
+same "$("$scree" get little state_checksum)" "$("$scree" get plane state_checksum)" "results of a run in little"
+expect 2 '^scree export: .*prepare' "$scree" export little --stage prepare -o no.dump
+expect 2 "there is no checkpoint in 'little'" "$scree" run --restart little -q
+expect 2 "there is a 'little' already: give another name" "$scree" export plane --archive little
+expect 2 "^scree export: --stage: the run has no snapshot of a stage 'compres' " "$scree" export plane --archive no --stage compres
+[ ! -e no ] || complain "a folder for nothing"
 expect 4 '^scree export: ' "$scree" export none
 [ ! -e none ] || complain "export makes folders"
 

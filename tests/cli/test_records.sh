@@ -45,6 +45,20 @@ expect 0 '' bash "$records" restore again kept
 expect 2 'keep +OUT RECORDS' bash "$records" keep
 expect 2 "keep or restore, not 'lose'" bash "$records" lose out kept
 
+# Of a sweep that averages over snapshots a member keeps those.
+member=layer-response/members/000-smooth-seed=1
+expect 0 '' "$scree" sweep layer-response --quick --realisations 1 --no-figures -q --member 0 -o bands/layer-response
+"$scree" sweep layer-response --quick --realisations 1 --no-figures -q --collect -o bands/layer-response >/dev/null 2>&1
+expect 0 'layer-response.tar.xz: 1 members' env SCREE="$scree" bash "$records" keep bands bands-kept
+before=$(cksum bands-kept/layer-response.tar.xz)
+expect 0 '' env SCREE="$scree" bash "$records" keep bands bands-kept
+same "$(cksum bands-kept/layer-response.tar.xz)" "$before" "kept again"
+expect 0 '' bash "$records" restore bands-again bands-kept
+for folder in bands bands-again; do
+    expect 0 '.' "$scree" measure $folder/$member --at settle --no-figures -o $folder-averages
+done
+same "$(awk -F, 'NR > 1 {printf "%.5g\n", $11}' bands-again-averages/cuts.csv)" "$(awk -F, 'NR > 1 {printf "%.5g\n", $11}' bands-averages/cuts.csv)" "averages of what was put back"
+
 # A record of a case that has changed since would stop `make reproduce-full`: remove it with the change.
 expect 0 '' bash "$records" restore whole "$root/records"
 for folder in whole/*/; do
