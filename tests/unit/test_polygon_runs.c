@@ -313,20 +313,23 @@ static void discs_run_among_them(void **unused)
     assert_true(first < 1e-4 && second < first / 2.5);
 }
 
-/// Outlines that are given, in the case or in a file, have its angles and the area of the disc of the drawn radius,
-/// with the centroid in the middle, whatever the unit.
+/// Outlines that are given, in the case or in a file with its columns in any order, have its angles and the area of the
+/// disc of the drawn radius, with the centroid in the middle, whatever the unit.
 static void outlines_are_given(void **unused)
 {
     (void)unused;
-    char folder[64], file[100], keys[400];
+    char folder[64], file[2][100], keys[400];
     assert_true(scratch_create(folder));
-    (void)snprintf(file, sizeof file, "%s/outline.csv", folder);
-    FILE *csv = fopen(file, "w");
-    assert_non_null(csv);
-    (void)fprintf(csv, "x,y\n0,0\n30,0\n0,40\n");
-    assert_int_equal(fclose(csv), 0);
-    const char *const said[] = {"[[0, 0], [3, 0], [0, 4]]", file};
+    static const char *const held[] = {"x,y\n0,0\n30,0\n0,40\n", "y,x\n0,0\n0,30\n40,0\n"};
     for (int k = 0; k < 2; k++) {
+        (void)snprintf(file[k], sizeof file[k], "%s/outline%d.csv", folder, k);
+        FILE *csv = fopen(file[k], "w");
+        assert_non_null(csv);
+        (void)fputs(held[k], csv);
+        assert_int_equal(fclose(csv), 0);
+    }
+    const char *const said[] = {"[[0, 0], [3, 0], [0, 4]]", file[0], file[1]};
+    for (int k = 0; k < 3; k++) {
         (void)snprintf(
             keys, sizeof keys,
             "particles={shape: polygon, outline: given, corners: %s, material: stone, thickness: 1 m, count: 9, "
