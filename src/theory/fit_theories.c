@@ -120,12 +120,13 @@ static size_t derive_wedge(const scree_fit_theory *theory, const scree_fit_param
 {
     scree_wedge found;
     scree_error ignored = {0};
-    double ray, dip = NAN, a1 = NAN, a2 = NAN, b1 = NAN;
+    double ray, dip = NAN, a1 = NAN, a2 = NAN, b1 = NAN, core = NAN;
     size_t count = 0;
     const bool equal = p[SLOPE].value == p[SLOPE_RIGHT].value;
     const double c = sin(p[SLOPE_RIGHT].value), s = cos(p[SLOPE_RIGHT].value); // of beta = 90 degrees - slope
     if (find_wedge(theory, p, &found, &ignored) == SCREE_OK) {
         dip = scree_pile_dip(&found.pile, &ray);
+        core = found.core[1];
         if (equal) scree_wedge_coefficients(&found, &a1, &a2, &b1);
     }
     put(derived, &count, "dip", "1", dip);
@@ -135,6 +136,7 @@ static size_t derive_wedge(const scree_fit_theory *theory, const scree_fit_param
     put(derived, &count, "a11", "1", 1 + c * c);
     put(derived, &count, "a22", "1", s * s);
     put(derived, &count, "a12", "1", c * s);
+    if (theory->kind != SCREE_WEDGES) put(derived, &count, "core", "rad", core);
     return count;
 }
 

@@ -215,6 +215,8 @@ static void test_two_slopes(void **state)
     }
     check(measure_fit(each, PILES, &plan, &found, &error), &error);
     assert_near(number_of(&found, "fit_wedge_dip_weight_ratio").value, 1, 1e-5);
+    assert_near(number_of(&found, "fit_wedge_dip_core").value, 27.7, 0.1); // right side at 28 and 21 degrees
+    assert_true(isnan(number_of(&found, "fit_wedge_dip_a1").value));
     assert_true(number_of(&found, "fit_wedge_dip_misfit").value < 1e-5);
     assert_true(number_of(&found, "fit_wedge_peak_misfit").value > 0.1);
     scree_release(&found.fits->row);
