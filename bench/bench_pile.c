@@ -7,10 +7,10 @@
 ///
 /// Then the memory of a polygon of 8 corners: what 900 more grains allocate.
 ///
-/// Then the share of list upkeep while one grain each 0.1 s falls from 30 cm onto 6500 that have settled in a box
+/// Then the share of list upkeep while one grain each 0.1 s falls from 30 cm onto 300 that have settled in a box
 /// (bench/data/bed.yaml): what steps that make a list take more than those that do not, over all. Births and falls are
-/// those of a pour; the bed stands for the pile, which a bench has no time to pour. Some minutes; `--pour N` takes
-/// another number of grains, 0 none.
+/// those of a pour; the bed stands for the pile, which a bench has no time to pour. Larger beds are not made: their
+/// layers of grains block one another.
 #include "bench.h"
 
 #include "base/memory.h"
@@ -18,16 +18,7 @@
 
 #include <math.h>
 
-enum {
-    RUNS = 8,
-    STEPS = 3000,
-    FALL_STEPS = 37500,
-    POUR_STEPS = 25000,
-    SMALL = 300,
-    LARGE = 1200,
-    BED = 6500,
-    FALLING = 30
-};
+enum { RUNS = 8, STEPS = 3000, FALL_STEPS = 37500, POUR_STEPS = 25000, SMALL = 300, LARGE = 1200, FALLING = 30 };
 
 typedef struct sample {
     scree_case *c;
@@ -171,15 +162,10 @@ static void print_pour(int count)
     close_sample(&b);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
-    int bed = BED;
-    if (argc == 3 && strcmp(argv[1], "--pour") == 0)
-        bed = (int)strtol(argv[2], NULL, 10);
-    else if (argc > 1)
-        return (void)fprintf(stderr, "bench_pile: what is '%s'?\n", argv[1]), EXIT_FAILURE;
     print_settled();
     print_memory();
-    if (bed > 0) print_pour(bed);
+    print_pour(SMALL);
     return EXIT_SUCCESS;
 }
