@@ -5,12 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-static scree_status fill(scree_error *error, scree_status status, const char *format, va_list arguments)
+scree_status scree_error_set_list(scree_error *error, scree_status status, const char *format, va_list values)
 {
     if (!error) return status;
     memset(error, 0, sizeof *error);
     error->status = status;
-    (void)vsnprintf(error->message, sizeof error->message, format, arguments);
+    (void)vsnprintf(error->message, sizeof error->message, format, values);
     return status;
 }
 
@@ -18,7 +18,7 @@ scree_status scree_error_set(scree_error *error, scree_status status, const char
 {
     va_list arguments;
     va_start(arguments, format);
-    fill(error, status, format, arguments);
+    (void)scree_error_set_list(error, status, format, arguments);
     va_end(arguments);
     return status;
 }
@@ -28,7 +28,7 @@ scree_status scree_error_set_errno(scree_error *error, scree_status status, cons
     int number = errno;
     va_list arguments;
     va_start(arguments, format);
-    fill(error, status, format, arguments);
+    (void)scree_error_set_list(error, status, format, arguments);
     va_end(arguments);
     if (error) {
         size_t length = strlen(error->message);
@@ -41,7 +41,7 @@ scree_status scree_error_refuse(scree_error *error, const char *key, const char 
 {
     va_list arguments;
     va_start(arguments, format);
-    fill(error, SCREE_ERROR_INPUT, format, arguments);
+    (void)scree_error_set_list(error, SCREE_ERROR_INPUT, format, arguments);
     va_end(arguments);
     if (error && accepted) (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
     return key ? scree_error_key(error, SCREE_ERROR_INPUT, "%s", key) : SCREE_ERROR_INPUT;

@@ -14,6 +14,10 @@
 /// `return scree_error_set(error, SCREE_ERROR_IO, "cannot write '%s'", path);`. Position and field fields are cleared.
 scree_status scree_error_set(scree_error *error, scree_status status, const char *format, ...) SCREE_PRINTF(3, 4);
 
+/// The same of values that are a list already: for functions that set errors of their own kind.
+scree_status scree_error_set_list(scree_error *error, scree_status status, const char *format, va_list values)
+    SCREE_PRINTF(3, 0);
+
 /// The same for a failed system call: appends ": " and strerror(errno).
 scree_status scree_error_set_errno(scree_error *error, scree_status status, const char *format, ...) SCREE_PRINTF(3, 4);
 

@@ -235,7 +235,7 @@ static void read_key(const scope *s, const scree_key *key)
     else if (!child && !key->standard)
         refuse_missing(s, key, path);
     else if (takes_table(key) && scree_csv_is_named(child) &&
-             !scree_csv_expand(s->reader, child, path, key->type == SCREE_KEY_LIST ? key->sections : NULL))
+             !scree_csv_expand(s->reader, child, path, key))
         return;
     else if (key->type == SCREE_KEY_LIST)
         read_list(s, key, child, path);

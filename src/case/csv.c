@@ -22,6 +22,8 @@ typedef struct table {
     const char *units[MOST_CELLS]; ///< of the columns; NULL: SI
     const char *names[MOST_CELLS]; ///< of the columns
     const scree_section *elements; ///< rows are elements of a list with these keys, or lists (NULL)
+    const char *const *columns;    ///< what the two columns of pairs are called; NULL: whatever the file says
+    bool swapped;                  ///< the file has the second of these first
     bool begun;                    ///< the names of the columns, or a first row, have been read
 } table;
 
@@ -85,6 +87,16 @@ static bool refuse(const table *t, const char *message)
     return false;
 }
 
+/// The second of a pair becomes the first.
+static void turn_pair(scree_node *row)
+{
+    scree_node *last = row->first;
+    row->first = row->last;
+    row->last = last;
+    row->first->next = last;
+    last->next = NULL;
+}
+
 static bool add_row(table *t, char *const cells[], const size_t columns[], size_t count)
 {
     if (t->list->count == SCREE_TABLE_ROWS) return refuse(t, "a table has at most 2000 rows");
@@ -98,6 +110,7 @@ static bool add_row(table *t, char *const cells[], const size_t columns[], size_
         cell.key_place = cell.place;
         if (!cell.text || !append(t, row, &cell)) return false;
     }
+    if (row && t->swapped && row->count == 2) turn_pair(row);
     return row != NULL;
 }
 
@@ -115,6 +128,40 @@ static bool read_name(table *t, char *cell, size_t k, size_t column)
     (void)snprintf(path, sizeof path, "%s.%s", t->path, name);
     (void)scree_unknown_key_refuse(t->reader, place, path, name, NULL, t->elements);
     return false;
+}
+
+/// Which of the names that pairs ask for this is; 2: none.
+static size_t which_of_pair(const table *t, const char *name)
+{
+    size_t which = 0;
+    while (which < 2 && strcmp(name, t->columns[which]) != 0) which++;
+    return which;
+}
+
+/// The names of the columns of pairs: both that are asked for, once each, in any order. A wrong one may have meant the
+/// one that is missing. False: this has been noted.
+static bool match_pair(table *t, const size_t columns[], size_t count)
+{
+    size_t said[3] = {0};
+    for (size_t k = 0; k < count; k++) said[which_of_pair(t, t->names[k])]++;
+    const char *missing = said[0] == 0 ? t->columns[0] : said[1] == 0 ? t->columns[1] : NULL;
+    scree_place place = t->place;
+    for (size_t k = 0, before[3] = {0}; k < count; k++) {
+        const size_t which = which_of_pair(t, t->names[k]);
+        if (which < 2 && before[which]++ == 0) continue;
+        place.column = (int)columns[k];
+        scree_problem_add(t->reader, place, t->path, NULL, NULL,
+                          "%s column '%s'%s%s%s; expected %s and %s, in any order", which < 2 ? "a second" : "unknown",
+                          scree_show(t->names[k]).text, missing ? "; did you mean '" : "", missing ? missing : "",
+                          missing ? "'?" : "", t->columns[0], t->columns[1]);
+        return false;
+    }
+    if (missing)
+        scree_problem_add(t->reader, place, t->path, NULL, NULL,
+                          "the column '%s' is missing; expected %s and %s, in any order", missing, t->columns[0],
+                          t->columns[1]);
+    t->swapped = count == 2 && which_of_pair(t, t->names[0]) == 1;
+    return !missing;
 }
 
 /// A line without its end, which may be changed.
@@ -137,6 +184,7 @@ static bool read_line(table *t, char *line)
     t->begun = true;
     for (size_t k = 0; names && k < count; k++)
         if (!read_name(t, cells[k], k, columns[k])) return false;
+    if (names && t->columns && !match_pair(t, columns, count)) return false;
     return names || add_row(t, cells, columns, count);
 }
 
@@ -166,7 +214,7 @@ static char *read_bytes(scree_reader *reader, const char *name, size_t *length, 
     return whole ? bytes : NULL;
 }
 
-bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, const scree_section *elements)
+bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, const scree_key *key)
 {
     char name[LONGEST_PATH];
     const char *reason;
@@ -178,7 +226,9 @@ bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, 
                           reason);
     if (!bytes) return false;
     scree_node list = {.kind = SCREE_NODE_LIST, .place = node->place, .key = node->key, .key_place = node->key_place};
-    table t = {.reader = reader, .path = path, .place = node->place, .list = &list, .elements = elements};
+    table t = {.reader = reader, .path = path, .place = node->place, .list = &list};
+    t.elements = key->type == SCREE_KEY_LIST ? key->sections : NULL;
+    t.columns = key->columns[0] ? key->columns : NULL;
     t.place.source = scree_arena_copy(reader->arena, name, strlen(name));
     t.place.line = 0;
     if (!t.place.source) scree_reader_fail(reader, strlen(name));

@@ -61,12 +61,10 @@ bool grain_text_line(grain_text *text)
 
 scree_status grain_text_refuse(const grain_text *text, size_t k, scree_error *error, const char *format, ...)
 {
-    char message[512];
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(message, sizeof message, format, arguments);
+    scree_status status = scree_error_set_list(error, SCREE_ERROR_INPUT, format, arguments);
     va_end(arguments);
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
     if (!error) return status;
     (void)snprintf(error->file, sizeof error->file, "%s", text->path);
     error->line = text->line;

@@ -25,7 +25,7 @@ typedef enum measure_product {
     MEASURE_PRODUCTS
 } measure_product;
 
-enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 160, MEASURE_FIT_RUNS = 3 };
+enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 240, MEASURE_FIT_RUNS = 3 };
 
 /// Theories that are fitted to the mean cuts of plane piles, what comes of it, and closures (measure_fit.c).
 typedef struct measure_fit_number {

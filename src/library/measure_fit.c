@@ -210,6 +210,13 @@ static void tell_fit(measure_fits *fits, size_t k, const scree_fit *fit, bool so
         const double value = is_weight ? p->value / weight : angle ? p->value / DEGREE : p->value;
         tell(fits, name, is_weight ? "weight_ratio" : p->name, angle ? "degree" : "1", true, solved ? value : NAN);
     }
+    scree_fit_derived derived[SCREE_FIT_DERIVED];
+    const size_t count = fit->theory->derive ? fit->theory->derive(fit->theory, fit->parameter, derived) : 0;
+    for (size_t i = 0; i < count; i++) {
+        const bool angle = strcmp(derived[i].unit, "rad") == 0;
+        tell(fits, name, derived[i].name, angle ? "degree" : "1", true,
+             solved ? derived[i].value / (angle ? DEGREE : 1) : NAN);
+    }
     tell(fits, name, "misfit", "1", true, solved ? misfit_of(fits->row, fits->rows, k) : NAN);
     tell(fits, name, "chi_square", "1", false, solved ? fit->chi_square : NAN);
     tell(fits, name, "reduced", "1", false, solved ? fit->reduced : NAN);

@@ -20,22 +20,21 @@ static void set_stiffness(int dimension, const double *matrix, double *stiffness
 }
 
 /// Young's modulus along each axis, Poisson's ratios, and the bulk modulus, of a sample that ends somewhere.
-static scree_status press(const scree_simulation *s, const scree_specimen *specimen, scree_moduli *out,
-                          scree_error *error)
+static scree_status press(const scree_specimen *specimen, const scree_box *box, scree_moduli *out, scree_error *error)
 {
     scree_status status = SCREE_OK;
     for (int k = 0; k < 3; k++) out->uniaxial_young[k] = NAN;
     for (int k = 0; k < 9; k++) out->uniaxial_poisson[k] = NAN;
     for (int axis = 0; axis < specimen->dimension && !status; axis++) {
         scree_uniaxial found;
-        status = scree_specimen_press_piece(&s->state, specimen, axis, &found, error);
+        status = scree_specimen_press_piece(specimen, box, axis, &found, error);
         out->uniaxial_young[axis] = found.young;
         out->iterations += found.iterations;
         for (int k = 0; k < 3; k++) out->uniaxial_poisson[3 * axis + k] = found.poisson[k];
     }
     if (status) return status;
     size_t iterations;
-    status = scree_specimen_press_piece_all(&s->state, specimen, &out->pressed_bulk, &iterations, error);
+    status = scree_specimen_press_piece_all(specimen, box, &out->pressed_bulk, &iterations, error);
     out->iterations += iterations;
     return status;
 }
@@ -45,11 +44,13 @@ scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_e
 {
     scree_specimen specimen;
     scree_specimen_moduli found;
+    scree_box box;
     *out = (scree_moduli){.dimension = s->model.dimension};
     scree_status status = library_specimen(s, elasticity, &specimen, error);
     if (status) return status;
-    status = press(s, &specimen, out, error);
-    if (!status) status = scree_specimen_take_piece(&s->state, &specimen, error);
+    status = scree_specimen_find_piece(&s->state, &specimen, &box, error);
+    if (!status) status = press(&specimen, &box, out, error);
+    if (!status) status = scree_specimen_take_piece(&specimen, &box, error);
     if (!status) status = scree_specimen_find_moduli(&specimen, &found, error);
     if (!status) {
         out->bodies = specimen.body_count;

@@ -77,8 +77,9 @@ typedef struct scree_key {
     const char *meaning;               ///< one line, ends with a full stop
     size_t offset;                     ///< of the member in its section's struct, or in that of its module
     size_t count_offset, element_size; ///< lists and pairs
-    size_t components;                 ///< schedules: 3 of a vector; 0 and 1: of one number
-    const void *initial;               ///< lists: what an element is before its keys are read; NULL: zero
+    const char *columns[2]; ///< pairs: what the columns of a .csv file are called, if it says names; NULL: any
+    size_t components;      ///< schedules: 3 of a vector; 0 and 1: of one number
+    const void *initial;    ///< lists: what an element is before its keys are read; NULL: zero
     const struct scree_section *sections;
     size_t section_count;
 

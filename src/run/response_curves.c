@@ -168,9 +168,11 @@ double scree_response_widening(const scree_response_curves *curves)
 double scree_response_misfit(const scree_response_curves *curves, scree_response_curve theory)
 {
     const scree_response_level *level = &curves->level[SCREE_RESPONSE_LEVELS - 1];
+    const double *measured = level->value[theory < SCREE_RESPONSE_HALF_SPACE_HORIZONTAL ? SCREE_RESPONSE_VERTICAL
+                                                                                        : SCREE_RESPONSE_HORIZONTAL];
     double sum = 0, count = 0;
     for (size_t k = 0; k < curves->count && curves->gap * (double)k <= curves->thickness; k++) {
-        const double difference = level->value[SCREE_RESPONSE_VERTICAL][k] - level->value[theory][k];
+        const double difference = measured[k] - level->value[theory][k];
         sum += (k == 0 ? 1 : 2) * difference * difference;
         count += k == 0 ? 1 : 2;
     }

@@ -48,7 +48,8 @@ scree_status scree_response_curves_find(const scree_response *r, double poisson,
 /// p in reach ~ depth^p, by least squares of the logarithms; NAN with fewer than three.
 double scree_response_widening(const scree_response_curves *curves);
 
-/// Root of the mean square difference of the vertical response at the base and a theory over its width, over its peak.
+/// Root of the mean square difference of the vertical response at the base and a theory within a thickness of the load,
+/// over its peak; of the horizontal response where the curve of the theory is.
 double scree_response_misfit(const scree_response_curves *curves, scree_response_curve theory);
 
 #endif

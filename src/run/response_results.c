@@ -224,6 +224,14 @@ static const scree_result results[] = {
      "root mean square difference from the half-space at the base, within a thickness, over its peak"},
     {"response_misfit_smooth", "1", "the same of the layer on a smooth base"},
     {"response_misfit_bonded", "1", "the same of the layer bonded to its base"},
+    {"response_horizontal_over_half_space", "1",
+     "largest horizontal response at the base over that of the elastic half-space"},
+    {"response_horizontal_over_smooth", "1", "the same of the elastic layer on a smooth rigid base"},
+    {"response_horizontal_over_bonded", "1", "the same of the elastic layer bonded to a rigid base"},
+    {"response_horizontal_misfit_half_space", "1",
+     "root mean square difference of the horizontal response from the half-space, likewise"},
+    {"response_horizontal_misfit_smooth", "1", "the same of the layer on a smooth base"},
+    {"response_horizontal_misfit_bonded", "1", "the same of the layer bonded to its base"},
 };
 
 #define USED_UP 0.999 /* of the friction of a contact that slides, or is about to */
@@ -392,12 +400,16 @@ static void set_depths(const finding *f)
 static void set_theories(const finding *f)
 {
     static const char *const name[] = {"half_space", "smooth", "bonded"};
-    const double *centre = f->curves->level[SCREE_RESPONSE_LEVELS - 1].centre;
+    const scree_response_level *base = &f->curves->level[SCREE_RESPONSE_LEVELS - 1];
+    const double *centre = base->centre;
     set(f, "widening", "", scree_response_widening(f->curves));
     for (int k = 0; k < 3; k++) {
         const scree_response_curve theory = (scree_response_curve)(SCREE_RESPONSE_HALF_SPACE + k);
         set(f, "over_", name[k], centre[SCREE_RESPONSE_VERTICAL] / centre[theory]);
         set(f, "misfit_", name[k], scree_response_misfit(f->curves, theory));
+        const scree_response_curve across = (scree_response_curve)(SCREE_RESPONSE_HALF_SPACE_HORIZONTAL + k);
+        set(f, "horizontal_over_", name[k], base->peak[SCREE_RESPONSE_HORIZONTAL].most / base->peak[across].most);
+        set(f, "horizontal_misfit_", name[k], scree_response_misfit(f->curves, across));
     }
 }
 

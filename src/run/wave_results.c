@@ -238,7 +238,9 @@ static scree_status take_specimen(scree_simulation *s, scree_specimen *out, doub
     for (size_t k = 0; k < out->body_count; k++) out->held[k] = 0;
     const bool repeats = out->periodic == (1U << out->dimension) - 1;
     *density = repeats ? mass / out->extent : scree_specimen_box_density(out, &faces);
-    return scree_specimen_take_piece(&s->state, out, error);
+    scree_box box;
+    status = scree_specimen_find_piece(&s->state, out, &box, error);
+    return status ? status : scree_specimen_take_piece(out, &box, error);
 }
 
 /// A sample that is no box, or that some strain does not meet with any stress, has no such speeds.

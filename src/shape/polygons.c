@@ -51,10 +51,10 @@ static const scree_key keys[] = {
             .meaning = "Fewest corners; each number up to `corners_max` is equally likely."),
     INTEGER(config, corners_max, .standard = "8", FROM("3"), TO("32"), WITH_POLYGON, .meaning = "Most corners."),
     KEY(config, corners, SCREE_KEY_PAIRS, .unit = "1", FROM("-1e12"), TO("1e12"), .when = "outline=given",
-        .count_offset = offsetof(config, corner_count), .element_size = sizeof(double[2]),
+        .count_offset = offsetof(config, corner_count), .element_size = sizeof(double[2]), .columns = {"x", "y"},
         .meaning =
             "Its corners, 3 to 32, counter-clockwise, [[x, y], [x, y], [x, y]] or a .csv file; in any unit, since "
-            "they are scaled."),
+            "they are scaled. A file may name its columns x and y, in any order."),
     NUMBER(config, axis_ratio, "1", .standard = "1", FROM("1"), TO("20"), .when = "outline=ellipse",
            .meaning = "Long over short axis of the ellipse."),
     CHOICE(config, corner_angles, scatters, .standard = "sectors", .when = "outline=ellipse",

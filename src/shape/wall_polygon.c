@@ -9,8 +9,9 @@
 typedef scree_polygon_keys config;
 static const scree_key keys[] = {
     KEY(config, corners, SCREE_KEY_PAIRS, .unit = "m", FROM("-1e6 m"), TO("1e6 m"),
-        .count_offset = offsetof(config, corner_count), .element_size = sizeof(double[2]),
-        .meaning = "Its corners, 3 to 32, counter-clockwise, [[x, y], [x, y], [x, y]] or a .csv file."),
+        .count_offset = offsetof(config, corner_count), .element_size = sizeof(double[2]), .columns = {"x", "y"},
+        .meaning = "Its corners, 3 to 32, counter-clockwise, [[x, y], [x, y], [x, y]] or a .csv file, which may name "
+                   "its columns x and y, in any order."),
 };
 
 static const char *wrong(const void *own, int dimension, const char **key)

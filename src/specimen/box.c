@@ -115,24 +115,22 @@ static void weaken(scree_specimen_contact *contact, double share)
     contact->stiffness.tangential *= share;
 }
 
-scree_status scree_specimen_cut_box(const scree_specimen *s, const scree_box_faces *faces, scree_specimen *out,
+scree_status scree_specimen_cut_box(const scree_specimen *s, const scree_box *b, scree_specimen *out,
                                     scree_error *error)
 {
-    scree_box b;
     *out = (scree_specimen){0};
-    scree_status status = scree_specimen_find_box(s, faces, &b, error);
-    if (!status) status = scree_specimen_copy(s, out, error);
+    scree_status status = scree_specimen_copy(s, out, error);
     if (status) return status;
     for (size_t body = 0; body < s->body_count; body++)
-        if (common_faces(s, &b, body, body) > 0) out->held[body] = 1 | 2 | 4;
+        if (common_faces(s, b, body, body) > 0) out->held[body] = 1 | 2 | 4;
     for (size_t c = 0; c < s->contact_count; c++) {
         scree_specimen_contact *contact = &out->contact[c];
         const bool wall = contact->second == SCREE_SPECIMEN_WALL;
-        weaken(contact, wall ? 0 : ldexp(1, -common_faces(s, &b, contact->first, contact->second)));
+        weaken(contact, wall ? 0 : ldexp(1, -common_faces(s, b, contact->first, contact->second)));
     }
     // Discs are volume over area long.
     out->extent = s->dimension == 2 ? s->volume[0] / (M_PI * s->radius[0] * s->radius[0]) : 1;
-    for (int k = 0; k < s->dimension; k++) out->extent *= b.plane[1][k] - b.plane[0][k];
+    for (int k = 0; k < s->dimension; k++) out->extent *= b->plane[1][k] - b->plane[0][k];
     return SCREE_OK;
 }
 

@@ -31,8 +31,8 @@ scree_status scree_specimen_copy(const scree_specimen *specimen, scree_specimen 
 /// The piece within the centres of the outermost bodies, to be strained by moving these: a copy, to be destroyed.
 /// They are held but for their spins; contacts within a face count half, within an edge a quarter, as they belong to
 /// what lies outside as well; walls do not touch it. Its extent is that between the mean planes of these bodies.
-/// Errors: SCREE_ERROR_INPUT when it is periodic in some direction, or no box; memory.
-scree_status scree_specimen_cut_box(const scree_specimen *specimen, const scree_box_faces *faces, scree_specimen *out,
+/// box: that it fills. Errors: memory.
+scree_status scree_specimen_cut_box(const scree_specimen *specimen, const scree_box *box, scree_specimen *out,
                                     scree_error *error) __attribute__((warn_unused_result));
 
 /// Mass over volume [kg/m3] of the same piece: bodies of a face count half, of an edge a quarter. NAN: it is no box.

@@ -16,39 +16,41 @@ static void find_faces(const scree_state *state, scree_box_faces *faces)
     }
 }
 
-scree_status scree_specimen_take_piece(const scree_state *state, scree_specimen *specimen, scree_error *error)
+scree_status scree_specimen_find_piece(const scree_state *state, const scree_specimen *specimen, scree_box *box,
+                                       scree_error *error)
 {
     const unsigned all = (1U << specimen->dimension) - 1;
     scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+    *box = (scree_box){0};
     if (specimen->periodic == all) return SCREE_OK;
-    scree_specimen piece;
     find_faces(state, &faces);
-    scree_status status = scree_specimen_cut_box(specimen, &faces, &piece, error);
+    return scree_specimen_find_box(specimen, &faces, box, error);
+}
+
+scree_status scree_specimen_take_piece(scree_specimen *specimen, const scree_box *box, scree_error *error)
+{
+    scree_specimen piece;
+    if (specimen->periodic) return SCREE_OK;
+    scree_status status = scree_specimen_cut_box(specimen, box, &piece, error);
     if (status) return status;
     scree_specimen_destroy(specimen);
     *specimen = piece;
     return SCREE_OK;
 }
 
-scree_status scree_specimen_press_piece(const scree_state *state, const scree_specimen *specimen, int axis,
+scree_status scree_specimen_press_piece(const scree_specimen *specimen, const scree_box *box, int axis,
                                         scree_uniaxial *out, scree_error *error)
 {
-    scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
     *out = (scree_uniaxial){NAN, {NAN, NAN, NAN}, 0};
-    if (specimen->periodic) return SCREE_OK;
-    find_faces(state, &faces);
-    return scree_specimen_press(specimen, &faces, axis, out, error);
+    return specimen->periodic ? SCREE_OK : scree_specimen_press(specimen, box, axis, out, error);
 }
 
-scree_status scree_specimen_press_piece_all(const scree_state *state, const scree_specimen *specimen, double *bulk,
+scree_status scree_specimen_press_piece_all(const scree_specimen *specimen, const scree_box *box, double *bulk,
                                             size_t *iterations, scree_error *error)
 {
-    scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
     *bulk = NAN;
     *iterations = 0;
-    if (specimen->periodic) return SCREE_OK;
-    find_faces(state, &faces);
-    return scree_specimen_press_all(specimen, &faces, bulk, iterations, error);
+    return specimen->periodic ? SCREE_OK : scree_specimen_press_all(specimen, box, bulk, iterations, error);
 }
 
 scree_isotropic scree_specimen_estimate(const scree_specimen *s)

@@ -7,18 +7,22 @@
 #include "specimen/uniaxial.h"
 #include "state/state.h"
 
-/// A specimen that does not repeat itself in all directions becomes the piece within its outermost bodies (box.h), by
-/// plates where these stand. Errors: SCREE_ERROR_INPUT when it fills no box; memory.
-scree_status scree_specimen_take_piece(const scree_state *state, scree_specimen *specimen,
+/// The box that a specimen fills which does not repeat itself, by plates where these stand; of one that repeats itself
+/// in all directions none is asked for. Errors: SCREE_ERROR_INPUT when it fills no box, or repeats itself in some.
+scree_status scree_specimen_find_piece(const scree_state *state, const scree_specimen *specimen, scree_box *box,
                                        scree_error *error) SCREE_MUST_USE;
 
-/// The specimen between two plates across `axis`, where it ends: uniaxial.h. NAN in all of *out where it repeats itself
-/// in some direction. Errors: as there.
-scree_status scree_specimen_press_piece(const scree_state *state, const scree_specimen *specimen, int axis,
+/// A specimen that does not repeat itself becomes the piece within its outermost bodies (box.h). Errors: memory.
+scree_status scree_specimen_take_piece(scree_specimen *specimen, const scree_box *box,
+                                       scree_error *error) SCREE_MUST_USE;
+
+/// The specimen between two plates across `axis`, where it ends: uniaxial.h. NAN in all of *out where it repeats
+/// itself. Errors: as there.
+scree_status scree_specimen_press_piece(const scree_specimen *specimen, const scree_box *box, int axis,
                                         scree_uniaxial *out, scree_error *error) SCREE_MUST_USE;
 
 /// The same between plates all around: its bulk modulus [Pa].
-scree_status scree_specimen_press_piece_all(const scree_state *state, const scree_specimen *specimen, double *bulk,
+scree_status scree_specimen_press_piece_all(const scree_specimen *specimen, const scree_box *box, double *bulk,
                                             size_t *iterations, scree_error *error) SCREE_MUST_USE;
 
 /// Voigt's moduli from number, mean springs and mean square radius alone (M 4.15-4.18).

@@ -13,7 +13,7 @@
 typedef struct press {
     const scree_specimen *s; ///< as it is given
     scree_specimen between;  ///< the same between the plates
-    scree_box box;
+    const scree_box *box;
     unsigned axes; ///< 1 << axis: plates stand across it
     double *imposed, *motion, *offset, *force;
 } press;
@@ -27,12 +27,10 @@ static void destroy(press *p)
     scree_release(&p->force);
 }
 
-static scree_status create(press *p, const scree_specimen *s, const scree_box_faces *faces, unsigned axes,
-                           scree_error *error)
+static scree_status create(press *p, const scree_specimen *s, const scree_box *box, unsigned axes, scree_error *error)
 {
-    *p = (press){.s = s, .axes = axes};
-    scree_status status = scree_specimen_find_box(s, faces, &p->box, error);
-    if (!status) status = scree_specimen_copy(s, &p->between, error);
+    *p = (press){.s = s, .box = box, .axes = axes};
+    scree_status status = scree_specimen_copy(s, &p->between, error);
     if (!status) status = scree_allocate(&p->imposed, scree_specimen_motions(s), sizeof(double), error);
     if (!status) status = scree_allocate(&p->motion, scree_specimen_motions(s), sizeof(double), error);
     if (!status) status = scree_allocate(&p->offset, scree_specimen_contact_forces(s), sizeof(double), error);
@@ -52,9 +50,9 @@ static void impose_along(press *p, int axis)
         double *along = p->imposed + body * (size_t)s->components + axis;
         *along = s->position[body][axis];
         for (int end = 0; end < 2; end++) {
-            if (!scree_box_has(p->s, &p->box, body, end, axis)) continue;
+            if (!scree_box_has(p->s, p->box, body, end, axis)) continue;
             s->held[body] |= (uint8_t)(1U << axis);
-            *along = p->box.plane[end][axis];
+            *along = p->box->plane[end][axis];
         }
     }
 }
@@ -75,13 +73,13 @@ static double mean_of_face(const press *p, const double *x, int end, int face, i
 {
     double sum = 0;
     for (size_t body = 0; body < p->s->body_count; body++)
-        if (scree_box_has(p->s, &p->box, body, end, face)) sum += x[body * (size_t)p->s->components + (size_t)k];
-    return sum / (double)p->box.count[end][face];
+        if (scree_box_has(p->s, p->box, body, end, face)) sum += x[body * (size_t)p->s->components + (size_t)k];
+    return sum / (double)p->box->count[end][face];
 }
 
 static double length(const press *p, int k)
 {
-    return p->box.plane[1][k] - p->box.plane[0][k];
+    return p->box->plane[1][k] - p->box->plane[0][k];
 }
 
 /// Tension of the plates across an axis over their area: contacts pull the bodies of a face with G^T f, which
@@ -91,10 +89,10 @@ static double stress(const press *p, int axis)
     const scree_specimen *s = p->s;
     double area = s->dimension == 2 ? s->volume[0] / (M_PI * s->radius[0] * s->radius[0]) : 1, pull = 0;
     for (int k = 0; k < s->dimension; k++)
-        if (k != axis) area *= p->box.face[1][k] - p->box.face[0][k];
+        if (k != axis) area *= p->box->face[1][k] - p->box->face[0][k];
     for (int end = 0; end < 2; end++)
         pull +=
-            (end == 0 ? 0.5 : -0.5) * (double)p->box.count[end][axis] * mean_of_face(p, p->imposed, end, axis, axis);
+            (end == 0 ? 0.5 : -0.5) * (double)p->box->count[end][axis] * mean_of_face(p, p->imposed, end, axis, axis);
     return pull / area;
 }
 
@@ -116,25 +114,25 @@ static void measure(const press *p, int axis, scree_uniaxial *out)
     out->young = stress(p, axis);
 }
 
-scree_status scree_specimen_press(const scree_specimen *s, const scree_box_faces *faces, int axis, scree_uniaxial *out,
+scree_status scree_specimen_press(const scree_specimen *s, const scree_box *box, int axis, scree_uniaxial *out,
                                   scree_error *error)
 {
     press p;
     *out = (scree_uniaxial){NAN, {NAN, NAN, NAN}, 0};
-    scree_status status = create(&p, s, faces, 1U << axis, error);
+    scree_status status = create(&p, s, box, 1U << axis, error);
     if (!status) status = solve(&p, &out->iterations, error);
     if (!status) measure(&p, axis, out);
     destroy(&p);
     return status;
 }
 
-scree_status scree_specimen_press_all(const scree_specimen *s, const scree_box_faces *faces, double *bulk,
-                                      size_t *iterations, scree_error *error)
+scree_status scree_specimen_press_all(const scree_specimen *s, const scree_box *box, double *bulk, size_t *iterations,
+                                      scree_error *error)
 {
     press p;
     double sum = 0;
     *bulk = NAN;
-    scree_status status = create(&p, s, faces, (1U << s->dimension) - 1, error);
+    scree_status status = create(&p, s, box, (1U << s->dimension) - 1, error);
     if (!status) status = solve(&p, iterations, error);
     for (int axis = 0; axis < s->dimension && !status; axis++) sum += stress(&p, axis);
     if (!status) *bulk = sum / (s->dimension * s->dimension);

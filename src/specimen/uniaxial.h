@@ -13,14 +13,13 @@ typedef struct scree_uniaxial {
 
 /// Bodies of the two faces across `axis` move along it as two plates do, by the strain of their mean planes, and are
 /// free otherwise, as all other bodies are; nothing acts on the sides. Strains go from plane to plane, of the means of
-/// the bodies of a side across. Errors: SCREE_ERROR_INPUT when it is periodic in some direction, or no box;
-/// SCREE_ERROR_GUARD without convergence; memory.
-scree_status scree_specimen_press(const scree_specimen *specimen, const scree_box_faces *faces, int axis,
-                                  scree_uniaxial *out, scree_error *error) __attribute__((warn_unused_result));
+/// the bodies of a side across. box: that it fills. Errors: SCREE_ERROR_GUARD without convergence; memory.
+scree_status scree_specimen_press(const scree_specimen *specimen, const scree_box *box, int axis, scree_uniaxial *out,
+                                  scree_error *error) __attribute__((warn_unused_result));
 
 /// The bulk modulus [Pa], in the plane that of areas, between plates across all axes: mean of the normal stresses over
 /// the sum of the strains. The plates are smooth: bodies of a face move with it along its axis alone. Errors: the same.
-scree_status scree_specimen_press_all(const scree_specimen *specimen, const scree_box_faces *faces, double *bulk,
+scree_status scree_specimen_press_all(const scree_specimen *specimen, const scree_box *box, double *bulk,
                                       size_t *iterations, scree_error *error) __attribute__((warn_unused_result));
 
 #endif

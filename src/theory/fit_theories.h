@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "theory/pile.h"
 
-enum { SCREE_FIT_PARAMETERS = 8 };
+enum { SCREE_FIT_PARAMETERS = 8, SCREE_FIT_DERIVED = 8 };
 
 /// A measured stress, in the frame of the theory (theory/pile.h, theory/layer.h). A component without an error above
 /// zero is left out.
@@ -22,6 +22,12 @@ typedef struct scree_fit_parameter {
     bool free;
 } scree_fit_parameter;
 
+/// A number that follows from the parameters.
+typedef struct scree_fit_derived {
+    const char *name, *unit;
+    double value; ///< NAN where they have no solution
+} scree_fit_derived;
+
 typedef struct scree_fit_theory {
     const char *name;
     scree_fit_parameter parameter[SCREE_FIT_PARAMETERS]; ///< ends with one that has no name
@@ -29,6 +35,9 @@ typedef struct scree_fit_theory {
     scree_status (*stress)(const struct scree_fit_theory *theory, const scree_fit_parameter *parameter, size_t count,
                            const scree_fit_point *points, scree_stress_2d *stress, scree_error *error);
     int kind;
+    /// What follows from the parameters, always the same names; returns how many. NULL: nothing.
+    size_t (*derive)(const struct scree_fit_theory *theory, const scree_fit_parameter *parameter,
+                     scree_fit_derived derived[SCREE_FIT_DERIVED]);
 } scree_fit_theory;
 
 extern const scree_fit_theory scree_fit_theories[]; ///< ends with a row that has no name

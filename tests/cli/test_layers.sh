@@ -31,6 +31,18 @@ same "$(grep -c '^made' rough/response-contacts.csv)" "$("$scree" get rough resp
 same "$(grep -c '^lost' rough/response-contacts.csv)" "$("$scree" get rough response_lost)" "contacts lost"
 same "$(grep -c '^sliding' rough/response-contacts.csv)" "$("$scree" get rough response_sliding)" "contacts brought to sliding"
 head -1 rough/response.csv | grep -q 'depth \[m\],x \[m\].*vertical \[Pa\].*half_space \[Pa\].*bonded_horizontal \[Pa\]$' || complain "columns of response.csv"
+# Horizontal responses at the base beside the theories, from the table again: largest over largest, root mean square of
+# the difference within a thickness of the load over the peak.
+for theory in half_space smooth bonded; do
+    awk -F, -v theory="${theory}_horizontal [Pa]" -v thickness="$("$scree" get rough response_thickness)" '
+        NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "horizontal [Pa]") h = k; if ($k == theory) t = k } next }
+        $1 != depth { depth = $1; most = peak = sum = number = 0 }
+        { if ($h > most) most = $h; if ($t > peak) peak = $t }
+        $2 <= thickness { w = $2 == 0 ? 1 : 2; sum += w * ($h - $t)^2; number += w }
+        END { printf "%.5g %.5g\n", most / peak, sqrt(sum / number) / peak }' rough/response.csv >wanted
+    awk '{ printf "%.5g %.5g\n", $1, $2 }' <<<"$("$scree" get rough "response_horizontal_over_$theory") $("$scree" get rough "response_horizontal_misfit_$theory")" >found
+    same "$(cat found)" "$(cat wanted)" "horizontal response and $theory"
+done
 # A larger load, with the same layer, changes more contacts; the first is its limit.
 between rough response_unchanged_force 0 20
 

@@ -43,6 +43,14 @@ printf 'x,y\n0,0\n1\n0,1\n' >corners.csv
 given corners.csv '^corners\.csv:3:1: particles\.corners: expected a pair of values'
 printf 'x,y\n0,0\nnan,0\n0,1\n' >corners.csv
 given corners.csv "^corners\.csv:3:1: particles\.corners: 'nan' is not a number"
+printf 'x,z\n0,0\n1,0\n0,1\n' >corners.csv
+given corners.csv "^corners\.csv:1:3: particles\.corners: unknown column 'z'; did you mean 'y'\?; expected x and y, in any order"
+printf 'grain,x,y\n1,0,0\n1,1,0\n1,0,1\n' >corners.csv
+given corners.csv "^corners\.csv:1:1: particles\.corners: unknown column 'grain'; expected x and y"
+printf '# one name\ny\n0\n1\n' >corners.csv
+given corners.csv "^corners\.csv:2:1: particles\.corners: the column 'x' is missing; expected x and y"
+printf 'x,x\n0,0\n1,0\n0,1\n' >corners.csv
+given corners.csv "^corners\.csv:1:3: particles\.corners: a second column 'x'; did you mean 'y'?"
 printf '\0\1\2x,y\n' >corners.csv
 given corners.csv '^corners\.csv: particles\.corners: this is not a text file'
 : >corners.csv

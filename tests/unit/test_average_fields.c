@@ -263,6 +263,36 @@ static void test_plate(void **state)
     scree_average_sample_destroy(&s);
 }
 
+/// R 2.42 with the sign of 2.43, d sigma_il / d x_l = rho g_i with compression positive: the pressure of a column under
+/// its weight falls upwards, by the weight of a layer in each layer (R 2.42 would have it grow).
+static void test_sign_of_equilibrium(void **state)
+{
+    (void)state;
+    enum { N = 30 };
+    scree_average_sample s = average_begin(2);
+    s.gravity[1] = -10;
+    for (uint32_t k = 0; k < N; k++) {
+        const uint32_t grain = average_add(&s, 0, 2.0 * k + 1, 0, 1);
+        const double above = 10 * s.grain[grain].mass * (N - k);
+        if (k == 0)
+            average_stand(&s, grain, (double[3]){0, 0, 0}, (double[3]){0, above, 0});
+        else
+            average_touch(&s, grain, k - 1, (double[3]){0, above, 0});
+    }
+    average_finish(&s);
+    scree_average_view view = open_view(&s, &(scree_average_plan){.side = 2});
+    double pressure[2], density[2];
+    for (int k = 0; k < 2; k++) {
+        const scree_average_element element = {{-1, 10 + 20.0 * k, 0}, {1, 12 + 20.0 * k, 0}};
+        pressure[k] = -told(&view, &element, SCREE_AVERAGE_STRESS, "stress_yy");
+        density[k] = 1000 * told(&view, &element, SCREE_AVERAGE_DENSITY, "volume_fraction");
+    }
+    near(density[0], density[1], 1e-9 * density[0]);
+    near((pressure[1] - pressure[0]) / 20, density[0] * s.gravity[1], 1e-9 * density[0] * 10);
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
 static void test_bad_samples(void **state)
 {
     (void)state;
@@ -308,6 +338,7 @@ int main(void)
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_surface_of_polygons),
         cmocka_unit_test(test_plate),
+        cmocka_unit_test(test_sign_of_equilibrium),
         cmocka_unit_test(test_bad_samples),
         cmocka_unit_test(test_principal),
     };

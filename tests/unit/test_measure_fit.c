@@ -115,6 +115,23 @@ static void test_exact(void **state)
     assert_near(number_of(&found, "fit_osl_misfit").value, 0, 1e-5);
     // The boundary of the core at 28 degrees, docs/theory/piles.md.
     assert_near(number_of(&found, "fit_wedge_core_core").value, 35.9, 0.05);
+    // What follows from the parameters: `scree theory osl --phi 28 --eta 0.74` (R: mu -0.31, K 1.345, tau 85), and R's
+    // parameters of the core at 35.9 degrees by R 4.12.
+    assert_near(number_of(&found, "fit_osl_mu").value, -0.29794, 1e-4);
+    assert_near(number_of(&found, "fit_osl_ratio").value, 1.34544, 1e-4);
+    assert_near(number_of(&found, "fit_osl_tau").value, 85.1417, 2e-3);
+    assert_near(number_of(&found, "fit_osl_dip").value, 0.13675, 1e-4);
+    assert_near(number_of(&found, "fit_bcc_dip").value, 0, 1e-9);
+    const double core = number_of(&found, "fit_wedge_core_core").value * M_PI / 180;
+    const double c = sin(SLOPE), s = cos(SLOPE), less = c / s - 1 / tan(core);
+    assert_near(number_of(&found, "fit_wedge_core_a1").value, -c * s * less, 1e-9);
+    assert_near(number_of(&found, "fit_wedge_core_a2").value, 1 + s * s * (tan(core) * c / s - 1), 1e-9);
+    assert_near(number_of(&found, "fit_wedge_core_b1").value, c / s + (c * c + c * s / tan(core)) * less, 1e-9);
+    assert_near(number_of(&found, "fit_wedge_core_a11").value, 1 + c * c, 1e-12);
+    assert_near(number_of(&found, "fit_wedge_core_a22").value, s * s, 1e-12);
+    assert_near(number_of(&found, "fit_wedge_core_a12").value, c * s, 1e-12);
+    const measure_fit_number dip = number_of(&found, "fit_wedge_core_dip");
+    assert_true(dip.value > 0.05 && dip.value < 0.25 && dip.low <= dip.value && dip.high >= dip.value);
     assert_true(number_of(&found, "fit_bcc_misfit").value > 0.02);
     assert_true(number_of(&found, "fit_bcc_information").value > number_of(&found, "fit_osl_information").value);
     assert_near(number_of(&found, "mohr_coulomb_flank").value, 0, 1e-4);
@@ -198,6 +215,8 @@ static void test_two_slopes(void **state)
     }
     check(measure_fit(each, PILES, &plan, &found, &error), &error);
     assert_near(number_of(&found, "fit_wedge_dip_weight_ratio").value, 1, 1e-5);
+    assert_near(number_of(&found, "fit_wedge_dip_core").value, 27.7, 0.1); // right side at 28 and 21 degrees
+    assert_true(isnan(number_of(&found, "fit_wedge_dip_a1").value));
     assert_true(number_of(&found, "fit_wedge_dip_misfit").value < 1e-5);
     assert_true(number_of(&found, "fit_wedge_peak_misfit").value > 0.1);
     scree_release(&found.fits->row);

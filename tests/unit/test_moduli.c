@@ -242,8 +242,10 @@ static scree_specimen cut(const scree_specimen *s)
 {
     const scree_box_faces ends = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
     scree_specimen piece;
+    scree_box box;
     scree_error error;
-    check(scree_specimen_cut_box(s, &ends, &piece, &error), &error);
+    check(scree_specimen_find_box(s, &ends, &box, &error), &error);
+    check(scree_specimen_cut_box(s, &box, &piece, &error), &error);
     return piece;
 }
 
@@ -299,10 +301,11 @@ static void boxes_are_near_their_periodic_cells(void **unused)
         const double x = 2e-3 * (k % 20) - 19e-3, y = 2e-3 * (k / 20) - 19e-3;
         if (hypot(x, y) < 20e-3) discs_add(&round, x, y, 0, 1e-3);
     }
-    scree_specimen s = specimen_of(&round, 2, 1e-6, (discs_bond){.stiffness = {1, 1}}), piece;
+    scree_specimen s = specimen_of(&round, 2, 1e-6, (discs_bond){.stiffness = {1, 1}});
+    scree_box filled;
     scree_error error;
     const scree_box_faces ends = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
-    assert_int_equal(scree_specimen_cut_box(&s, &ends, &piece, &error), SCREE_ERROR_INPUT);
+    assert_int_equal(scree_specimen_find_box(&s, &ends, &filled, &error), SCREE_ERROR_INPUT);
     assert_non_null(strstr(error.message, "fills a box"));
     scree_specimen_destroy(&s);
     discs_destroy(&round);

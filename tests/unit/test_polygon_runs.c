@@ -230,6 +230,91 @@ static void momentum_is_kept(void **unused)
     close_both(&s, c);
 }
 
+// ---- equations of R that are misprinted
+// ------------------------------------------------------------------------------
+
+/// Two squares of equal area, face to face with an overlap of 2 um, without friction, damping and gravity; the second
+/// is `right` of the first. Velocities and spins are given.
+static scree_simulation two_squares(const char *first, const char *second, const char *friction, double apart,
+                                    scree_case **c)
+{
+    char bodies[320];
+    (void)snprintf(bodies, sizeof bodies,
+                   "stages.0.bodies=[{position: [0.5 m, 0.5 m], angle: 45 degrees, %s}, {position: [%.17g m, 0.5 m], "
+                   "angle: 45 degrees, %s}]",
+                   first, 0.5 + apart, second);
+    const char *const overrides[] = {"particles.count=2",
+                                     "particles.corners_min=4",
+                                     "particles.corners_max=4",
+                                     "gravity=[0, 0]",
+                                     "contact.law=polygon_overlap",
+                                     "materials.0.damping_constant=0",
+                                     "guard.overlap=0.5",
+                                     friction,
+                                     bodies};
+    return open_with(one_text, overrides, COUNT_OF(overrides), c);
+}
+
+static double side_of(double radius)
+{
+    return radius * sqrt(M_PI);
+}
+
+/// R 2.10, a tenth of pi sqrt(m / Y) (R prints sqrt(pi m / Y)): two squares of side a that meet face to face have the
+/// depth a d / l with l = a / 4, so a spring of 4 Y between two halves of m: the impact takes pi sqrt(m / (8 Y)). What
+/// the law says of an impact has its own spring, 2.5 Y.
+static void the_step_of_the_source_is_a_tenth_of_half_a_period(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    const double side = side_of(0.01);
+    scree_simulation s = two_squares("velocity: [0.1, 0]", "velocity: [-0.1, 0]", "materials.0.friction=0", side, &c);
+    while (s.state.stage.index < 1) simulation_step(&s);
+    const double mass = scree_body_mass(&s.state, 0), stiffness = 1e8, half = M_PI * sqrt(mass / stiffness);
+    scree_vector velocity, spin;
+    double first = 0, last = 0;
+    for (bool apart = false; !apart;) {
+        simulation_step(&s);
+        const double d = side - (s.state.row[1].x - s.state.row[0].x), now = (double)s.state.step * s.model.step;
+        scree_body_velocity(&s.model, &s.state, 0, velocity, spin);
+        if (d > 0 && first == 0) first = now;
+        apart = first > 0 && d <= 0;
+        last = now;
+    }
+    print_message("impact %.6g s, pi sqrt(m/Y) %.6g s, velocity %.6g m/s\n", last - first, half, velocity[0]);
+    assert_true(fabs(velocity[0] / 0.1 + 1) < 1e-3);                 // second order in 49 steps
+    assert_true(fabs((last - first) * sqrt(8.0) / half - 1) < 0.03); // to a step of 49
+    scree_impact impact;
+    scree_error error;
+    const scree_law_use *law = scree_model_law_between(&s.model, 0, 0);
+    check(scree_law_get(law->law)->impact(law, &s.model.pairs[0][0], 0.005, mass / 2, 0.2, &impact, &error), &error);
+    assert_true(fabs(impact.duration * sqrt(5.0) / half - 1) < 1e-12);
+    close_both(&s, c);
+}
+
+/// R 2.36 with the sign of omega x r of each body that a rigid rotation asks for: two squares that turn together about
+/// the middle of their contact do not slip; with the opposite spin they slip by twice their way.
+static void a_rigid_rotation_gives_no_slip(void **unused)
+{
+    (void)unused;
+    double slip[2];
+    for (int k = 0; k < 2; k++) {
+        scree_case *c;
+        const double apart = side_of(0.01) - 2e-6;
+        char first[80], second[80];
+        (void)snprintf(first, sizeof first, "velocity: [0, %.17g], spin: [0, 0, %s]", -0.5 * apart, k ? "-1" : "1");
+        (void)snprintf(second, sizeof second, "velocity: [0, %.17g], spin: [0, 0, %s]", 0.5 * apart, k ? "-1" : "1");
+        scree_simulation s = two_squares(first, second, "materials.0.friction=10", apart, &c);
+        while (s.state.stage.index < 1) simulation_step(&s);
+        for (int n = 0; n < 3; n++) simulation_step(&s);
+        assert_int_equal(s.work.pairs.count, 1);
+        slip[k] = fabs(s.work.pairs.history[0].value[0]) / (3 * s.model.step * apart);
+        close_both(&s, c);
+    }
+    print_message("slip over the way: %.3g, %.3g\n", slip[0], slip[1]);
+    assert_true(slip[0] < 1e-4 && fabs(slip[1] - 2) < 1);
+}
+
 /// A hexagon that rocks on an edge, pressed in and turned, let out and turned back: the work of the force of R round
 /// the closed path of its pose is a tenth of what was done on the way; that of the gradient is none.
 static void only_one_law_has_a_potential(void **unused)
@@ -313,20 +398,23 @@ static void discs_run_among_them(void **unused)
     assert_true(first < 1e-4 && second < first / 2.5);
 }
 
-/// Outlines that are given, in the case or in a file, have its angles and the area of the disc of the drawn radius,
-/// with the centroid in the middle, whatever the unit.
+/// Outlines that are given, in the case or in a file with its columns in any order, have its angles and the area of the
+/// disc of the drawn radius, with the centroid in the middle, whatever the unit.
 static void outlines_are_given(void **unused)
 {
     (void)unused;
-    char folder[64], file[100], keys[400];
+    char folder[64], file[2][100], keys[400];
     assert_true(scratch_create(folder));
-    (void)snprintf(file, sizeof file, "%s/outline.csv", folder);
-    FILE *csv = fopen(file, "w");
-    assert_non_null(csv);
-    (void)fprintf(csv, "x,y\n0,0\n30,0\n0,40\n");
-    assert_int_equal(fclose(csv), 0);
-    const char *const said[] = {"[[0, 0], [3, 0], [0, 4]]", file};
+    static const char *const held[] = {"x,y\n0,0\n30,0\n0,40\n", "y,x\n0,0\n0,30\n40,0\n"};
     for (int k = 0; k < 2; k++) {
+        (void)snprintf(file[k], sizeof file[k], "%s/outline%d.csv", folder, k);
+        FILE *csv = fopen(file[k], "w");
+        assert_non_null(csv);
+        (void)fputs(held[k], csv);
+        assert_int_equal(fclose(csv), 0);
+    }
+    const char *const said[] = {"[[0, 0], [3, 0], [0, 4]]", file[0], file[1]};
+    for (int k = 0; k < 3; k++) {
         (void)snprintf(
             keys, sizeof keys,
             "particles={shape: polygon, outline: given, corners: %s, material: stone, thickness: 1 m, count: 9, "
@@ -405,6 +493,8 @@ int main(void)
         cmocka_unit_test(a_potential_keeps_its_energy),
         cmocka_unit_test(the_balance_of_the_other_law_has_a_row),
         cmocka_unit_test(momentum_is_kept),
+        cmocka_unit_test(the_step_of_the_source_is_a_tenth_of_half_a_period),
+        cmocka_unit_test(a_rigid_rotation_gives_no_slip),
         cmocka_unit_test(only_one_law_has_a_potential),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(discs_run_among_them),
