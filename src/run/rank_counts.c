@@ -62,6 +62,9 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     counts->worst = fmax(parts->worst, counts->imbalance);
     counts->gathers = (double)parts->gathers;
     counts->gathered = (double)sum[place_of(SCREE_TRAFFIC_GATHERS, BYTES)] / processes;
+    counts->files = (double)parts->files;
+    counts->from_parts = (double)parts->from_parts;
+    counts->filed = (double)sum[place_of(SCREE_TRAFFIC_FILES, BYTES)] / processes;
     counts->placed = (double)sum[place_of(SCREE_TRAFFIC_PLACES, BYTES)] / processes;
     counts->stepping = NANOSECOND * (double)sum[STEPPING] / processes;
     for (scree_traffic_purpose p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) {
@@ -74,6 +77,15 @@ double scree_rank_counts_ratio(const scree_rank_counts *counts)
 {
     const double all = counts->bytes[0] + counts->bytes[1] + counts->processes * counts->reduced;
     return counts->needed > 0 ? all / counts->needed : NAN;
+}
+
+static void log_files(const scree_rank_counts *counts, scree_log *log)
+{
+    scree_log_write(log, SCREE_LOG_INFO,
+                    "%.0f snapshots and checkpoints were written by all processes together, %.0f of them from parts; "
+                    "rows sent for them by a process: %.3g MB, %.3g s (at most %.3g s)",
+                    counts->files, counts->from_parts, 1e-6 * counts->filed, counts->wait[SCREE_TRAFFIC_FILES],
+                    counts->longest[SCREE_TRAFFIC_FILES]);
 }
 
 void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
@@ -103,6 +115,7 @@ void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
                     counts->wait[SCREE_TRAFFIC_LISTS], counts->longest[SCREE_TRAFFIC_LISTS],
                     counts->wait[SCREE_TRAFFIC_GATHERS], counts->longest[SCREE_TRAFFIC_GATHERS],
                     counts->wait[SCREE_TRAFFIC_PLACES], counts->longest[SCREE_TRAFFIC_PLACES], rest, counts->stepping);
+    log_files(counts, log);
 }
 
 void scree_rank_counts_results(const scree_rank_counts *counts, scree_summary *summary)
@@ -118,4 +131,6 @@ void scree_rank_counts_results(const scree_rank_counts *counts, scree_summary *s
     scree_summary_set_number(summary, "processes_bytes_ratio", scree_rank_counts_ratio(counts));
     scree_summary_set_number(summary, "processes_reductions", counts->reductions);
     scree_summary_set_number(summary, "processes_waiting", wait / counts->stepping);
+    scree_summary_set_integer(summary, "processes_files", (int64_t)counts->files);
+    scree_summary_set_integer(summary, "processes_files_from_parts", (int64_t)counts->from_parts);
 }

@@ -7,10 +7,13 @@
 #include "base/checksum.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
+#include "io/folder_lock.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
 #include <math.h>
+#include <string.h>
+#include <time.h>
 
 bool scree_ranks_write(void)
 {
@@ -110,6 +113,28 @@ scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree
         return scree_error_set(error, SCREE_ERROR_INPUT,
                                "the processes have read different cases: see to it that all find the same files");
     return SCREE_OK;
+}
+
+scree_status scree_ranks_check_folder(const char *directory, scree_error *error)
+{
+    enum { LONGEST_TEXT = 512, MOST_TRIES = 20, MOMENT = 100 * 1000 * 1000 };
+    char first[LONGEST_TEXT], own[LONGEST_TEXT] = "";
+    if (scree_comm_size() == 1) return SCREE_OK;
+    scree_folder_lock_text(directory, first, sizeof first);
+    scree_comm_share(first, sizeof first);
+    // What another machine has written may take a moment to be seen.
+    for (int k = 0; k < MOST_TRIES && strcmp(own, first) != 0; k++) {
+        if (k > 0) (void)nanosleep(&(struct timespec){.tv_nsec = MOMENT}, NULL);
+        scree_folder_lock_text(directory, own, sizeof own);
+    }
+    scree_status status = SCREE_OK;
+    if (strcmp(own, first) != 0)
+        status =
+            scree_error_set(error, SCREE_ERROR_INPUT,
+                            "process %d does not see the folder '%s' that process 0 has locked: all processes write "
+                            "into it, so give them one that all machines share",
+                            scree_comm_rank(), directory);
+    return scree_comm_agree(status, error);
 }
 
 double scree_ranks_most(double own)

@@ -22,6 +22,10 @@ scree_status scree_ranks_can_spread(scree_simulation *s, scree_error *error) SCR
 /// one). Errors: the lowest process's; SCREE_ERROR_INPUT where programs or cases differ.
 scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree_error *error) SCREE_MUST_USE;
 
+/// All processes see the folder that process 0 has locked, as they write its files together. All call it. Errors:
+/// SCREE_ERROR_INPUT.
+scree_status scree_ranks_check_folder(const char *directory, scree_error *error) SCREE_MUST_USE;
+
 /// Before a step: each process keeps its part. Nothing happens where one is alone, or has it. Errors: as of
 /// scree_ranks_check, of what shows in the state alone; memory.
 scree_status scree_ranks_spread(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
