@@ -28,7 +28,6 @@ typedef struct scree_parts {
     uint64_t draws;
     // counted since the begin of the process
     uint64_t gathers, gathered; ///< states put together, and their bytes
-    uint64_t files, from_parts; ///< snapshots and checkpoints that all processes have written; those of them from parts
     uint64_t cuts, lists;       ///< of space; lists with ghosts
     uint64_t moved;             ///< bodies that have changed their process
     uint64_t steps, bytes;      ///< messages of steps: how often, and what this process sent

@@ -13,6 +13,14 @@
 
 _Static_assert((int)SCREE_RANGE_SETS == (int)SCREE_PAIR_SETS, "a route for each set");
 
+/// Files of this process since its begin, and those of them from parts.
+static uint64_t files[2];
+
+uint64_t scree_ranges_files(bool from_parts)
+{
+    return files[from_parts];
+}
+
 size_t scree_range_rows(size_t total)
 {
     const size_t size = (size_t)scree_comm_size();
@@ -234,9 +242,9 @@ scree_status scree_ranges_open(scree_state *state, scree_work *work, scree_range
 {
     scree_pair_set set[SCREE_PAIR_SETS];
     *ranges = (scree_ranges){.part = state->part};
-    if (work->parts) work->parts->files++;
+    files[0]++;
     if (!state->part) return SCREE_OK;
-    work->parts->from_parts++;
+    files[1]++;
     scree_status status = scree_pair_sets_list(state, work, set, &ranges->sets, error);
     if (!status) status = route_bodies(state, &ranges->bodies, error);
     for (size_t k = 0; k < ranges->sets && !status; k++) {

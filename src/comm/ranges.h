@@ -60,6 +60,9 @@ scree_status scree_ranges_open(scree_state *state, scree_work *work, scree_range
                                scree_error *error) SCREE_MUST_USE;
 void scree_ranges_close(scree_ranges *ranges);
 
+/// Files of which ranges have been made since the process began; those of them of parts of a sample.
+uint64_t scree_ranges_files(bool from_parts);
+
 /// The route of the elements of a field; NULL: all processes have all of them.
 const scree_route *scree_ranges_of(const scree_ranges *ranges, const scree_state *state, const scree_field *field);
 

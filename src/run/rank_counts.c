@@ -4,6 +4,7 @@
 
 #include "comm/comm.h"
 #include "comm/parts.h"
+#include "comm/ranges.h"
 
 #include <math.h>
 
@@ -62,8 +63,8 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     counts->worst = fmax(parts->worst, counts->imbalance);
     counts->gathers = (double)parts->gathers;
     counts->gathered = (double)sum[place_of(SCREE_TRAFFIC_GATHERS, BYTES)] / processes;
-    counts->files = (double)parts->files;
-    counts->from_parts = (double)parts->from_parts;
+    counts->files = (double)scree_ranges_files(false);
+    counts->from_parts = (double)scree_ranges_files(true);
     counts->filed = (double)sum[place_of(SCREE_TRAFFIC_FILES, BYTES)] / processes;
     counts->placed = (double)sum[place_of(SCREE_TRAFFIC_PLACES, BYTES)] / processes;
     counts->stepping = NANOSECOND * (double)sum[STEPPING] / processes;
