@@ -1,5 +1,11 @@
 /// The contact table, and the contact memory of checkpoints. Both are in the order of ids.
+///
+/// Of a part the table has the contacts that this process evaluates, each contact of the sample in one process. Rows of
+/// ghosts of other processes hold the velocities with which the last forces were found, in a cell that deforms with the
+/// motion of the lattice in them: those of the middle of the step are told by their processes, 48 bytes a ghost.
 #include "base/fixed.h"
+#include "comm/ghost_rows.h"
+#include "comm/parts.h"
 #include "contact/contact.h"
 #include "contact/order.h"
 #include "contact/single.h"
@@ -8,6 +14,8 @@
 #include "state/periodic.h"
 #include "state/plates.h"
 #include "state/sleep.h"
+
+#include <string.h>
 
 /// A body with its velocity at n - 1/2; a scheme may keep v(n), half a step of acceleration later.
 static contact_body stored_body_at_half_step(const scree_model *model, const scree_state *state, size_t k)
@@ -31,10 +39,57 @@ static contact_body stored_body_at_half_step(const scree_model *model, const scr
     return body;
 }
 
+/// Velocity and spin of a body as six numbers, and back.
+static void get_motion(const scree_state *state, const contact_body *body, double motion[6])
+{
+    const bool in_3d = state->dimension == 3;
+    const double all[6] = {body->row.vx, body->row.vy, body->row.vz, body->turn.wx, body->turn.wy, body->turn.wz};
+    memcpy(motion, all, (in_3d ? 6 : 3) * sizeof *all);
+}
+
+static void set_motion(const scree_state *state, contact_body *body, const double motion[6])
+{
+    body->row.vx = motion[0];
+    body->row.vy = motion[1];
+    body->row.vz = motion[2]; // in 2D this is the spin
+    if (state->dimension == 2) return;
+    body->turn.wx = motion[3];
+    body->turn.wy = motion[4];
+    body->turn.wz = motion[5];
+}
+
+/// Processes tell each other the motion of bodies that others have ghosts of.
+static scree_status tell_motion(const scree_model *model, const scree_state *state, const scree_work *work,
+                                scree_error *error)
+{
+    double(*shown)[6];
+    const size_t count = scree_ghost_rows_shown(work);
+    scree_status status = scree_allocate(&shown, count + 1, sizeof *shown, error);
+    if (!status) status = scree_allocate(&work->parts->half, work->ghosts.away + 1, sizeof *work->parts->half, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        const contact_body body = stored_body_at_half_step(model, state, scree_ghost_rows_body(work, k));
+        get_motion(state, &body, shown[k]);
+    }
+    if (!status) scree_ghost_rows_tell(state, work, shown, work->parts->half, sizeof *shown);
+    scree_release(&shown);
+    return status;
+}
+
+/// The body in a row, or that of the ghost in it: a ghost of another process with the motion that this has told.
+static contact_body body_of_row(const scree_model *model, const scree_state *state, const scree_work *work, uint32_t k)
+{
+    const size_t first = scree_ghost_rows_first(state, work);
+    const uint32_t parent = scree_parent_row(state, work, k);
+    if (parent < state->count || !work->parts->half) return stored_body_at_half_step(model, state, parent);
+    contact_body body = contact_body_get(state, parent);
+    set_motion(state, &body, work->parts->half[parent - first]);
+    return body;
+}
+
 contact_body contact_body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
                                        uint32_t k)
 {
-    contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
+    contact_body body = body_of_row(model, state, work, k);
     if (!scree_cell(state)->directions) return body;
     scree_row *row = &body.row;
     bool in_3d = state->dimension == 3;
@@ -108,9 +163,11 @@ scree_status scree_contact_table_build(const scree_model *model, const scree_sta
     size_t count;
     scree_status status = contact_order(state, work, &order, &count, error);
     if (!status) status = reserve(table, count, error);
+    if (!status && state->part) status = tell_motion(model, state, work, error);
     table->count = 0;
     for (size_t k = 0; k < count && !status; k++)
         table->count += fill(model, state, work, &order[k], &table->contact[table->count]);
+    if (state->part) scree_release(&work->parts->half);
     scree_release(&order);
     return status;
 }

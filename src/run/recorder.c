@@ -92,7 +92,7 @@ void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_recorder_clock(recorder, s);
-    scree_status status = scree_ranks_gather(s, error);
+    scree_status status = scree_ranks_gather(s, "checkpoints", error);
     if (!status) status = scree_contacts_save(&s->state, &s->work, error);
     // A checkpoint counts rows, so they are on the disk before it is.
     if (!status && recorder->writes) status = scree_series_sync(&recorder->series, error);
@@ -141,14 +141,15 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .stage_name = s->model.stages[s->state.stage.index].name,
                                 .restartable = sound,
                                 .case_checksum = recorder->case_checksum};
-    if (!recorder->writes) {
+    scree_status status = scree_ranks_gather_contacts(s, "snapshots", error);
+    if (status || !recorder->writes) {
         s->state.stage.snapshots++;
-        return SCREE_OK;
+        return status;
     }
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
     scree_wall_triangles walls = {0};
-    scree_status status = picture_walls(s, &walls, error);
+    status = picture_walls(s, &walls, error);
     info.walls = &walls;
     if (!status && sound && s->model.measure.cells && !scree_cell(&s->state)->directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
