@@ -5,6 +5,7 @@
 #include "run/ranks.h"
 
 #include "base/checksum.h"
+#include "base/memory.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
 #include "io/folder_lock.h"
@@ -12,6 +13,7 @@
 #include "state/periodic.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -174,15 +176,43 @@ scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
     derive(state);
     if (!status) status = scree_parts_spread(state, &s->work, error);
     derive(state);
+    // Nothing here stays as long as the whole was. Some of what was freed lies between what is still there.
+    scree_neighbours_release(&s->work);
+    scree_contact_scratch_destroy(&s->work);
+    scree_contact_table_destroy(&s->table);
+    scree_memory_trim();
     return status;
 }
 
-scree_status scree_ranks_gather(scree_simulation *s, scree_error *error)
+scree_status scree_ranks_gather(scree_simulation *s, const char *what, scree_error *error)
 {
     if (!s->state.part) return SCREE_OK;
     scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
-    if (!status) status = scree_parts_gather(&s->state, &s->work, error);
+    if (!status) status = scree_parts_gather(&s->state, &s->work, what, error);
     return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+scree_status scree_ranks_gather_contacts(scree_simulation *s, const char *what, scree_error *error)
+{
+    if (!s->state.part) return SCREE_OK;
+    scree_status status = scree_ranks_gather(s, what, error);
+    return status ? status : scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+}
+
+/// Samples, and for whom whole states were put together.
+static void log_gathers(const scree_simulation *s, const scree_parts *parts, scree_log *log)
+{
+    char text[1024] = "";
+    size_t used = 0;
+    for (size_t k = 0; k < parts->reasons && used < sizeof text; k++) {
+        const int more = snprintf(text + used, sizeof text - used, "%s%s (%llu)", k > 0 ? ", " : "",
+                                  parts->reason[k].what, (unsigned long long)parts->reason[k].count);
+        used += more > 0 ? (size_t)more : 0;
+    }
+    scree_log_write(log, SCREE_LOG_INFO,
+                    "samples: %llu taken in parts, %llu of whole states; whole states were put together for: %s",
+                    (unsigned long long)s->samples_in_parts, (unsigned long long)s->samples_of_wholes,
+                    used > 0 ? text : "nothing");
 }
 
 void scree_ranks_log(const scree_simulation *s, scree_log *log)
@@ -197,4 +227,5 @@ void scree_ranks_log(const scree_simulation *s, scree_log *log)
                     scree_comm_size(), (double)parts->ghosts / lists, (double)parts->bytes / messages,
                     (unsigned long long)parts->lists, (unsigned long long)parts->cuts, (unsigned long long)parts->moved,
                     (unsigned long long)parts->gathers, 1e-6 * (double)parts->gathered);
+    log_gathers(s, parts, log);
 }

@@ -159,14 +159,6 @@ static bool wants_cells(const scree_simulation *s, bool sound)
     return sound && s->model.measure.cells && !scree_cell(&s->state)->directions;
 }
 
-/// For what looks at all of it at once.
-static scree_status have_whole(scree_simulation *s, scree_error *error)
-{
-    if (!s->state.part) return SCREE_OK;
-    scree_status status = scree_ranks_gather(s, error);
-    return status ? status : scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
-}
-
 /// The files of a snapshot, by this process alone or, with ranges in `info`, by all of them.
 static scree_status write_picture(scree_recorder *recorder, scree_simulation *s, scree_snapshot_info *info,
                                   scree_error *error)
@@ -186,7 +178,7 @@ static scree_status write_picture(scree_recorder *recorder, scree_simulation *s,
     scree_recorder_clock(recorder, s);
     s->state.stage.snapshots++;
     if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, info, error);
-    if (!status && s->model.output.paraview) status = have_whole(s, error);
+    if (!status && s->model.output.paraview) status = scree_ranks_gather_contacts(s, "ParaView files", error);
     if (!status && s->model.output.paraview && recorder->writes)
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, info, error);
     scree_cells_destroy(&cells);
@@ -206,7 +198,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .restartable = sound,
                                 .case_checksum = recorder->case_checksum};
     const bool together = sound && !wants_cells(s, sound);
-    scree_status status = sound && !together ? have_whole(s, error) : SCREE_OK;
+    scree_status status = sound && !together ? scree_ranks_gather_contacts(s, "cells of snapshots", error) : SCREE_OK;
     if (!status && sound) status = save_contacts(s, error);
     if (!status && together) status = scree_ranges_open(&s->state, &s->work, &ranges, error);
     if (together) info.ranges = &ranges;

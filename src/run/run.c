@@ -74,11 +74,10 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
         if (!status) status = scree_recorder_follow(recorder, s, error);
     }
     recorder->stepping = scree_clock() - begin;
-    // All other reasons are found by all processes, in the same step; what is told of the end is told of the whole.
-    if (status != SCREE_ERROR_IO && scree_ranks_gather(s, &second)) {
-        status = second.status;
-        if (error) *error = second;
-    }
+    // What is left of a run is told of the whole state, by one process.
+    if (status != SCREE_ERROR_IO && scree_ranks_gather(s, "results", &second))
+        scree_ranks_fail(recorder->options, &second);
+    // All other reasons are found by all processes, in the same step.
     if (status == SCREE_ERROR_IO && error) scree_ranks_fail(recorder->options, error);
     if (!status || status == SCREE_INTERRUPTED) scree_rank_counts_join(s, recorder->stepping, &recorder->counts);
     return status;
