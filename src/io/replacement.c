@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <limits.h>
 #include <string.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name, scree_error *error)
@@ -64,15 +65,42 @@ scree_status scree_replacement_close(const char *path, FILE *file, bool keep, sc
     return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
 }
 
-scree_status scree_file_reserve(const char *path, off_t begin, off_t bytes, scree_error *error)
+/// 0, or the error number.
+static int allocate(int file, off_t begin, off_t bytes)
+{
+    return posix_fallocate(file, begin, bytes);
+}
+
+/// The same; posix_fallocate would write into each block where the file system knows no better.
+static int allocate_or_look(int file, off_t begin, off_t bytes)
+{
+    struct statvfs system;
+    if (fallocate(file, 0, begin, bytes) == 0) return 0;
+    if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
+    if (fstatvfs(file, &system) != 0) return errno;
+    return (uintmax_t)system.f_bavail * system.f_frsize < (uintmax_t)bytes ? ENOSPC : 0;
+}
+
+static scree_status take_room(const char *path, int (*take)(int file, off_t begin, off_t bytes), off_t begin,
+                              off_t bytes, scree_error *error)
 {
     int file = open(path, O_RDWR | O_CLOEXEC);
     if (file < 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
-    int number = posix_fallocate(file, begin, bytes);
+    int number = take(file, begin, bytes);
     close(file);
     if (!number) return SCREE_OK;
     errno = number;
     return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write %jd bytes to '%s'", (intmax_t)bytes, path);
+}
+
+scree_status scree_file_reserve(const char *path, off_t begin, off_t bytes, scree_error *error)
+{
+    return take_room(path, allocate, begin, bytes, error);
+}
+
+scree_status scree_file_claim(const char *path, off_t begin, off_t bytes, scree_error *error)
+{
+    return take_room(path, allocate_or_look, begin, bytes, error);
 }
 
 scree_status scree_replacement_put(const char *temporary, const char *path, scree_error *error)

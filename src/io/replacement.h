@@ -23,6 +23,9 @@ scree_status scree_replacement_name(char *name, size_t size, const char *path, s
 /// Errors: SCREE_ERROR_IO.
 scree_status scree_file_reserve(const char *path, off_t begin, off_t bytes, scree_error *error) SCREE_MUST_USE;
 
+/// The same without writing anything: where the file system cannot keep room for a file it has to have that much.
+scree_status scree_file_claim(const char *path, off_t begin, off_t bytes, scree_error *error) SCREE_MUST_USE;
+
 /// Puts its checksum behind the file `temporary`, flushes it to the disk and renames it to `path`. Errors:
 /// SCREE_ERROR_IO.
 scree_status scree_replacement_put(const char *temporary, const char *path, scree_error *error) SCREE_MUST_USE;

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/// Bytes that HDF5 takes for the description of a file and of an array, at most.
-enum { FILE_ROOM = 1 << 15, ARRAY_ROOM = 2048 };
+/// Bytes that HDF5 takes for the description of a file, of an array and of a chunk, at most.
+enum { FILE_ROOM = 1 << 15, ARRAY_ROOM = 1024, CHUNK_ROOM = 32 };
 
 scree_status scree_together_begin(scree_together *together, const char *path, char *name, scree_error *error)
 {
@@ -28,7 +28,7 @@ scree_status scree_together_take_room(scree_together *together, scree_error *err
     if (scree_comm_rank() > 0 || together->room == together->taken) return SCREE_OK;
     scree_status status = scree_replacement_name(name, sizeof name, together->path, error);
     const off_t begin = (off_t)together->taken, bytes = (off_t)(together->room - together->taken);
-    if (!status) status = scree_file_reserve(name, begin, bytes, error);
+    if (!status) status = scree_file_claim(name, begin, bytes, error);
     together->taken = together->room;
     return status;
 }
@@ -55,7 +55,9 @@ scree_status scree_together_prepare(scree_together *together, const scree_array 
                                     scree_error *error)
 {
     together->room += all->rows * scree_array_row_size(all) + ARRAY_ROOM;
-    return scree_array_is_small(all) ? join(array, all, error) : scree_together_take_room(together, error);
+    if (scree_array_is_small(all)) return join(array, all, error);
+    together->room += CHUNK_ROOM * (size_t)scree_comm_size();
+    return scree_together_take_room(together, error);
 }
 
 bool scree_together_write(hid_t dataset, hid_t type, const scree_array *array, const scree_array *all)
@@ -82,7 +84,10 @@ scree_status scree_together_end(const scree_together *together, scree_status sta
 {
     char name[PATH_MAX];
     scree_error ignored;
+    int64_t closed = 1;
     if (scree_replacement_name(name, sizeof name, together->path, &ignored)) return status;
+    // What others have written may come into sight when they have closed it.
+    if (!status) scree_comm_add(NULL, &closed, 1);
     if (!status && scree_comm_rank() == 0) status = scree_replacement_put(name, together->path, error);
     if (status) (void)unlink(name);
     return status;
