@@ -33,6 +33,8 @@
 #include "boundary/axial_plates.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
+#include "comm/comm.h"
+#include "comm/parts.h"
 #include "module/key_rows.h"
 #include "state/pressure.h"
 
@@ -87,8 +89,8 @@ static bool find_spring(const scree_model *model, const scree_state *state, size
     bool rim = in_3d && s == 0 && scree_membrane_plate(state, k) >= 0;
     found->stiffness = (rim ? 0.5 : 1) * scree_membrane_numbers_of(model)->stiffness;
     scree_vector from;
-    scree_body_position(state, scree_membrane_row(state, k), from);
-    scree_body_position(state, scree_membrane_row(state, found->other), found->direction);
+    scree_membrane_position(state, k, from);
+    scree_membrane_position(state, found->other, found->direction);
     for (int i = 0; i < 3; i++) found->direction[i] -= from[i];
     double length = scree_length(found->direction);
     for (int i = 0; i < 3; i++) found->direction[i] /= length;
@@ -115,10 +117,7 @@ double scree_membrane_energy(const scree_model *model, const scree_state *state)
 
 static void add_force(scree_state *state, size_t k, const int64_t force[3])
 {
-    scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
-    scree_wrapping_add(&sum->fx, force[0]);
-    scree_wrapping_add(&sum->fy, force[1]);
-    if (state->dimension == 3) scree_wrapping_add(&sum->fz, force[2]);
+    scree_membrane_add(state, k, force);
     for (int i = 0; i < 3; i++) scree_membrane_of(state)->force[k][i] += (double)force[i] * state->force_quantum;
 }
 
@@ -142,34 +141,38 @@ static void add_springs(const scree_model *model, scree_state *state)
 static double axial_velocity_error(const scree_state *state, size_t k, const scree_wall *wall)
 {
     int axis = state->dimension - 1;
-    scree_vector velocity, spin;
-    scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
+    scree_vector velocity;
+    scree_membrane_velocity(state, k, velocity);
     return velocity[axis] - wall->velocity * wall->normal[axis];
 }
 
-/// Gives every end the velocity of its plate along the plate's normal.
+/// Gives every end the velocity of its plate along the plate's normal. What a force has to balance is known to the
+/// process that has the end, which tells the others.
 static void hold_ends(const scree_model *model, scree_state *state, double kick)
 {
     int axis = state->dimension - 1;
     for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         int plate = scree_membrane_plate(state, k);
         if (plate < 0) continue;
-        size_t row = scree_membrane_row(state, k);
+        const uint32_t row = scree_membrane_row(state, k);
+        if (row == SCREE_NO_ROW) continue;
         double change = -axial_velocity_error(state, k, &scree_plates(state)[plate]);
         double force = state->row[row].mass * (change / kick - model->gravity[axis]);
         int64_t others = axis == 2 ? state->sum[row].fz : state->sum[row].fy, holding[3] = {0};
         holding[axis] = llrint(fmin(fmax(force / state->force_quantum, -0x1p62), 0x1p62)) - others;
         add_force(state, k, holding);
     }
+    const scree_membrane *membrane = scree_membrane_of(state);
+    scree_parts_tell(state, membrane->id, membrane->count, (double *)membrane->force, 3);
 }
 
 static double half_work(const scree_state *state, scree_vector *force)
 {
     scree_integer_sum power = {0};
-    scree_vector velocity, spin;
+    scree_vector velocity;
     while (scree_integer_sum_next(&power, 1))
         for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
-            scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
+            scree_membrane_velocity(state, k, velocity);
             scree_integer_sum_add(&power, scree_dot(force[k], velocity));
         }
     return 0.5 * state->step_size * scree_integer_sum_total(&power);
@@ -206,7 +209,7 @@ static double loaded_area(const scree_model *model, const scree_state *state, do
         double low = INFINITY, high = -INFINITY;
         scree_vector position;
         for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
-            scree_body_position(state, scree_membrane_row(state, k), position);
+            scree_membrane_position(state, k, position);
             low = fmin(low, position[i]);
             high = fmax(high, position[i]);
         }
@@ -228,20 +231,24 @@ static double bound(const scree_context *c)
             force = fmax(force, found.force);
             length = fmax(length, scree_membrane_of(state)->rest[k][s] + found.force / found.stiffness);
         }
-        int plate = scree_membrane_plate(state, k);
-        if (plate < 0) continue;
+        const int plate = scree_membrane_plate(state, k);
+        const uint32_t row = scree_membrane_row(state, k);
+        if (plate < 0 || row == SCREE_NO_ROW) continue;
         const scree_wall *wall = &scree_plates(state)[plate];
         double change = fabs(axial_velocity_error(state, k, wall)) + fabs(wall->velocity);
-        holding = fmax(holding, state->row[scree_membrane_row(state, k)].mass * change / state->step_size);
+        holding = fmax(holding, state->row[row].mass * change / state->step_size);
     }
     double pressure =
         scree_pressure_now(state) * loaded_area(model, state, length + 2 * scree_membrane_of(state)->radius);
     return fmax(holding, (in_3d ? 6 : 2) * force + pressure);
 }
 
+/// Once a step the bodies are told to all processes, as those of the Delaunay boundary are.
 static scree_status follow(const scree_context *c, scree_error *error)
 {
+    const scree_membrane *membrane = scree_membrane_of(c->state);
     (void)error;
+    scree_boundary_tell(c->state, membrane->id, membrane->body, membrane->count);
     add_half_work(c->state);
     return SCREE_OK;
 }
@@ -277,6 +284,11 @@ static const scree_field fields[] = {
          SCREE_RANGE(0, DBL_MAX)),
     BODY(press, "pressure_force", "N", "force of the pressure on this body of the membrane"),
     BODY(force, "chain_force", "N", "force of the springs on this body of the membrane, and of the plate on an end"),
+    SCREE_FIELD_GROUP(membrane, own, scree_membrane_bodies, id, uint32_t, "membrane/id", SCREE_FIELD_UINT32, 1, "1",
+                      "its bodies, by id", .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_GROUP(membrane, own, scree_membrane_bodies, body, scree_boundary_body, "membrane/body",
+                      SCREE_FIELD_DOUBLE, 7, "1", "the bodies as other processes see them",
+                      .role = SCREE_FIELD_DERIVED),
     ONE(first_id, "scalars/membrane_first_id", SCREE_FIELD_UINT64, 1, "1",
         "id of the first body of the membrane; the others follow it", SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE(right, "scalars/membrane_right", SCREE_FIELD_UINT64, 1, "1", "2D: bodies of the membrane's right side"),
@@ -326,6 +338,15 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     if (state->dimension == 3 && (m->around < 3 || m->count % m->around))
         return refuse("scalars/membrane_around", m->around, "3 or more, a divisor of", m->count, error);
     return SCREE_OK;
+}
+
+/// Of a whole sample that may be spread.
+static void derive(scree_state *state)
+{
+    const scree_membrane *m = scree_membrane_of(state);
+    if (state->part || scree_comm_size() == 1) return;
+    for (size_t k = 0; k < m->count; k++) m->id[k] = (uint32_t)(m->first_id + k);
+    scree_boundary_take(state, m->id, m->body, m->count);
 }
 
 /// Springs hold its bodies together.
@@ -393,5 +414,7 @@ const scree_module scree_module_membrane = {
     .field_count = COUNT(fields),
     .check = check,
     .keeps = keeps,
-    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
+    .derive = derive,
+    .spreads = true,
+    .columns = SCREE_RESULTS(columns, sample),
 };

@@ -2,6 +2,8 @@
 #ifndef SCREE_BOUNDARY_MEMBRANE_H
 #define SCREE_BOUNDARY_MEMBRANE_H
 
+#include "base/wrapping.h"
+#include "measure/delaunay_boundary.h"
 #include "state/plates.h"
 #include "state/state.h"
 
@@ -24,8 +26,11 @@ typedef struct scree_membrane_config {
 typedef struct scree_membrane {
     scree_vector *rest; ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
                         ///< to the next body; 3D: to the next of its ring and to two of the ring above
-    scree_vector *press; ///< count, N, force of the pressure at n
-    scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
+    scree_vector *press;       ///< count, N, force of the pressure at n
+    scree_vector *force;       ///< count, N, force of the springs, and of the plates on its ends, at n
+    uint32_t *id;              ///< count, derived: of its bodies
+    scree_boundary_body *body; ///< count, derived, of a part (measure/delaunay_boundary.h): read through
+                               ///< scree_membrane_position and _velocity
     size_t count, capacity;
     uint64_t first_id; ///< of its bodies
     uint64_t right;    ///< 2D: bodies of the right side
@@ -68,10 +73,33 @@ static inline const scree_membrane_numbers *scree_membrane_numbers_of(const scre
     return scree_model_numbers(model, SCREE_SLOT_membrane);
 }
 
-/// Row of the k-th body of the membrane.
-static inline size_t scree_membrane_row(const scree_state *state, size_t k)
+/// Row of the k-th body of the membrane; SCREE_NO_ROW where another process has it.
+static inline uint32_t scree_membrane_row(const scree_state *state, size_t k)
 {
-    return state->row_of_id[scree_membrane_of(state)->first_id + k];
+    return scree_state_row_of(state, scree_membrane_of(state)->first_id + k);
+}
+
+/// Position [m] and velocity [m/s] of the k-th body of the membrane, wherever it is.
+static inline void scree_membrane_position(const scree_state *state, size_t k, scree_vector position)
+{
+    const scree_membrane *membrane = scree_membrane_of(state);
+    scree_boundary_place(state, (uint32_t)(membrane->first_id + k), &membrane->body[k], position);
+}
+
+static inline void scree_membrane_velocity(const scree_state *state, size_t k, scree_vector velocity)
+{
+    const scree_membrane *membrane = scree_membrane_of(state);
+    scree_boundary_velocity(state, (uint32_t)(membrane->first_id + k), &membrane->body[k], velocity);
+}
+
+/// A force in quanta on the k-th body, where it is.
+static inline void scree_membrane_add(scree_state *state, size_t k, const int64_t force[3])
+{
+    const uint32_t row = scree_membrane_row(state, k);
+    if (row == SCREE_NO_ROW) return;
+    scree_wrapping_add(&state->sum[row].fx, force[0]);
+    scree_wrapping_add(&state->sum[row].fy, force[1]);
+    if (state->dimension == 3) scree_wrapping_add(&state->sum[row].fz, force[2]);
 }
 
 /// The plate of an end; -1 for the bodies between.

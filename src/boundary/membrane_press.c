@@ -25,10 +25,7 @@
 
 static void add_press(scree_state *state, size_t k, const int64_t force[3])
 {
-    scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
-    scree_wrapping_add(&sum->fx, force[0]);
-    scree_wrapping_add(&sum->fy, force[1]);
-    if (state->dimension == 3) scree_wrapping_add(&sum->fz, force[2]);
+    scree_membrane_add(state, k, force);
     for (int i = 0; i < 3; i++) scree_membrane_of(state)->press[k][i] += (double)force[i] * state->force_quantum;
 }
 
@@ -39,10 +36,11 @@ static void add_press(scree_state *state, size_t k, const int64_t force[3])
 static void side_point(const scree_state *state, size_t first, size_t last, size_t j, double position[2])
 {
     size_t body = j == 0 ? first : j > last - first + 1 ? last : first + j - 1;
-    const scree_row *row = &state->row[scree_membrane_row(state, body)];
     bool foot = j == 0 || j > last - first + 1;
-    position[0] = row->x;
-    position[1] = foot ? scree_plate_height(state, scree_membrane_plate(state, body)) : row->y;
+    scree_vector centre;
+    scree_membrane_position(state, body, centre);
+    position[0] = centre[0];
+    position[1] = foot ? scree_plate_height(state, scree_membrane_plate(state, body)) : centre[1];
 }
 
 /// Pressure on one side: bodies [first, last], the sample on the left.
@@ -82,7 +80,7 @@ static double side_area(const scree_state *state, size_t first, size_t last)
 /// Centre of body k relative to `origin`.
 static void centre_of(const scree_state *state, size_t k, const scree_vector origin, scree_vector position)
 {
-    scree_body_position(state, scree_membrane_row(state, k), position);
+    scree_membrane_position(state, k, position);
     for (int i = 0; i < 3; i++) position[i] -= origin[i];
 }
 
@@ -101,7 +99,7 @@ static void press_sheet(scree_state *state, double scale)
     const scree_membrane *membrane = scree_membrane_of(state);
     scree_vector origin, corner[3];
     int64_t force[2][3];
-    scree_body_position(state, scree_membrane_row(state, 0), origin);
+    scree_membrane_position(state, 0, origin);
     for (size_t t = 0; t < scree_sheet_triangle_count(membrane->around, membrane->count); t++) {
         size_t body[3];
         scree_sheet_triangle(membrane->around, membrane->count, t, body);
@@ -177,7 +175,7 @@ double scree_membrane_volume(const scree_model *model, const scree_state *state)
         return model->thickness *
                (side_area(state, 0, membrane->right - 1) + side_area(state, membrane->right, membrane->count - 1));
     scree_vector origin;
-    scree_body_position(state, scree_membrane_row(state, 0), origin);
+    scree_membrane_position(state, 0, origin);
     return triangles_volume(state, origin) + rim_volume(state, SCREE_WALL_BOTTOM, origin) +
            rim_volume(state, SCREE_WALL_TOP, origin);
 }

@@ -263,14 +263,15 @@ static scree_pressure *own_state(const scree_state *state)
     return state->own[SCREE_SLOT_pressure];
 }
 
-/// Row and force [N] of place k of the loop or the hull; false behind the last.
-static bool force_at(const scree_state *state, size_t k, size_t *row, double force[3])
+/// Row and force [N] of place k of the loop or the hull, SCREE_NO_ROW where another process has the body; false behind
+/// the last.
+static bool force_at(const scree_state *state, size_t k, uint32_t *row, double force[3])
 {
     const scree_loop *loop = scree_loop_of(state);
     const scree_hull *hull = scree_hull_of(state);
     const bool in_3d = state->dimension == 3;
     if (k >= (in_3d ? hull->node_count : loop->count)) return false;
-    *row = state->row_of_id[in_3d ? hull->id[k] : loop->id[k]];
+    *row = scree_state_row_of(state, in_3d ? hull->id[k] : loop->id[k]);
     for (int i = 0; i < 3; i++) force[i] = in_3d ? hull->force[k][i] : i == 0 ? loop->fx[k] : i == 1 ? loop->fy[k] : 0;
     return true;
 }
@@ -290,14 +291,14 @@ static scree_status attack(const scree_context *c, scree_error *error)
     scree_state *state = c->state;
     const double bound = scree_pressure_bound(c->model, state);
     double force[3], arm[3];
-    size_t row;
+    uint32_t row;
     if (!state->stretch || c->boundary->open || !(bound > 0)) return SCREE_OK;
     scree_status status = own_state(state)->surface ? SCREE_OK : scree_state_begin_field(state, surface_field, error);
     if (status) return status;
     // That of the state is not known yet.
     press(c->model, state, ldexp(bound, -50), false);
     for (size_t k = 0; force_at(state, k, &row, force); k++)
-        if (find_arm(state, row, force, arm)) scree_deformation_attack(state, row, arm, force);
+        if (row != SCREE_NO_ROW && find_arm(state, row, force, arm)) scree_deformation_attack(state, row, arm, force);
     return SCREE_OK;
 }
 
@@ -314,11 +315,11 @@ static void keep_surface(scree_state *state)
     const int d = state->dimension;
     const scree_tensor_place *place = scree_tensor_places(d);
     double force[3];
-    size_t row;
+    uint32_t row;
     memset(own_state(state)->surface, 0, state->count * sizeof *own_state(state)->surface);
     for (size_t k = 0; force_at(state, k, &row, force); k++) {
         const double size = scree_length(force);
-        for (int n = 0; n < scree_tensor_size(d) && size > 0; n++)
+        for (int n = 0; n < scree_tensor_size(d) && size > 0 && row != SCREE_NO_ROW; n++)
             own_state(state)->surface[row][n] -= force[place[n].i] * force[place[n].j] / size;
     }
 }

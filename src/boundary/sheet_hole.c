@@ -25,8 +25,8 @@ static double farthest_point(double a, double b, double c)
 static double square_of_edge(const scree_state *state, size_t one, size_t other)
 {
     scree_vector a, b;
-    scree_body_position(state, scree_membrane_row(state, one), a);
-    scree_body_position(state, scree_membrane_row(state, other), b);
+    scree_membrane_position(state, one, a);
+    scree_membrane_position(state, other, b);
     return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
 

@@ -482,6 +482,12 @@ static bool in_use(const scree_context *c)
     return scree_model_traits(c->model)->deforms;
 }
 
+/// Its products go over the pairs many times in a step, with what is sought of both bodies.
+static const char *alone(const scree_model *model)
+{
+    return own_numbers(model) && !isnan(own_numbers(model)->tolerance) ? "implicit" : NULL;
+}
+
 static double work(const scree_state *state)
 {
     return -scree_deformation_of(state)->given;
@@ -528,6 +534,8 @@ const scree_module scree_module_deformation = {
     .passes = passes,
     .pass_count = COUNT(passes),
     .in_use = in_use,
+    .spreads = true,
+    .alone = alone,
     .reads_moments = true,
     .work = work,
     .columns = SCREE_RESULTS(columns, sample),

@@ -7,6 +7,7 @@
 #include "integrate/forced_spin.h"
 
 #include "base/fixed.h"
+#include "comm/parts.h"
 #include "state/body.h"
 
 static double rotation_energy(const scree_state *state, size_t row)
@@ -33,8 +34,9 @@ void scree_forced_spin_end(scree_state *state)
 
 void scree_forced_spin_set(scree_state *state, const scree_vector spin)
 {
-    size_t row = state->row_of_id[scree_forced(state)->id];
+    const uint32_t row = scree_state_row_of(state, (size_t)scree_forced(state)->id);
     for (int i = 0; i < 3; i++) scree_forced(state)->spin[i] = spin[i];
+    if (row == SCREE_NO_ROW) return;
     if (state->dimension == 2) {
         state->row[row].spin = spin[2];
         return;
@@ -52,19 +54,26 @@ static double take(int64_t *sum, double quantum)
     return torque;
 }
 
+/// Moves the torque of the contacts out of the sums of a body.
+static void take_torque(scree_state *state, uint32_t row, scree_vector torque)
+{
+    if (state->dimension == 2) {
+        torque[2] = take(&state->sum[row].torque, state->torque_quantum);
+        return;
+    }
+    torque[0] = take(&state->torque[row].x, state->torque_quantum);
+    torque[1] = take(&state->torque[row].y, state->torque_quantum);
+    torque[2] = take(&state->torque[row].z, state->torque_quantum);
+}
+
 void scree_forced_spin_settle(scree_state *state)
 {
     scree_forced_spin *forced = scree_forced(state);
     if (!forced->active) return;
-    size_t row = state->row_of_id[forced->id];
+    const uint32_t id = (uint32_t)forced->id, row = scree_state_row_of(state, id);
     scree_vector torque = {0};
-    if (state->dimension == 2) {
-        torque[2] = take(&state->sum[row].torque, state->torque_quantum);
-    } else {
-        torque[0] = take(&state->torque[row].x, state->torque_quantum);
-        torque[1] = take(&state->torque[row].y, state->torque_quantum);
-        torque[2] = take(&state->torque[row].z, state->torque_quantum);
-    }
+    if (row != SCREE_NO_ROW) take_torque(state, row, torque);
+    scree_parts_tell(state, &id, 1, torque, 3);
     double work = 0;
     for (int i = 0; i < 3; i++) {
         work -= 0.5 * (torque[i] + forced->torque[i]) * forced->spin[i] * state->step_size;
@@ -133,4 +142,5 @@ const scree_module scree_module_forced_spin = {
     .pass_count = 1,
     .in_use = in_use,
     .turns = turns,
+    .spreads = true,
 };

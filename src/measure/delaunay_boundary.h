@@ -89,6 +89,9 @@ static inline scree_strain *scree_strain_of(const scree_state *state)
     return &scree_delaunay_boundary_of(state)->strain;
 }
 
+/// Fills in those bodies that are here.
+void scree_boundary_take(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count);
+
 /// The bodies of the boundary are told to all processes, where the state is a part; all of them call it.
 void scree_boundary_tell(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count);
 

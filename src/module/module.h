@@ -82,6 +82,8 @@ struct scree_module {
     /// (comm/parts.h): it loops over those that are here, and what it finds out of all goes through comm/comm.h. Of a
     /// choice: so is all that follows from it. Without this a case is refused on several processes (run/ranks.h).
     bool spreads;
+    /// Of one that spreads: the choice in this case that does not; NULL: none.
+    const char *(*alone)(const scree_model *model);
     bool reads_moments; ///< needs the moments of contact forces (scree_body_contact_moment) while it is in use
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.

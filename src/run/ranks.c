@@ -89,6 +89,10 @@ scree_status scree_ranks_can_spread(scree_simulation *s, scree_error *error)
         status = check_module(model->loads[k].kind, "load", error);
     for (int64_t k = 0; k < model->source_count && !status; k++)
         status = check_module(model->sources[k].kind, "source", error);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++) {
+        const char *alone = scree_modules[m]->alone ? scree_modules[m]->alone(model) : NULL;
+        if (alone) status = refuse(scree_modules[m]->name, alone, error);
+    }
     return status ? status : check_stages(s, error);
 }
 

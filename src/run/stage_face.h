@@ -45,6 +45,8 @@ typedef struct scree_stage {
     void (*plan)(scree_simulation *s);
     /// Every step, before the plates move: velocities of plates, pressure. NULL: nothing to do.
     void (*control)(scree_simulation *s);
+    /// Whether `control` looks at all bodies in this step (module/pass.h). NULL: never.
+    bool (*control_whole)(const scree_simulation *s);
     /// At every sample: has the stage ended? Then writes the reason. May fail: time limit. NULL: for instant
     /// stages alone.
     scree_status (*finished)(scree_simulation *s, bool *done, scree_error *error);

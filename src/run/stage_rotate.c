@@ -209,6 +209,13 @@ static void forget_angles(scree_state *state)
     scree_orientation_forget(state);
 }
 
+/// The background is measured once.
+static bool control_whole(const scree_simulation *s)
+{
+    const course c = course_of(s);
+    return c.rest > 0 && s->state.step - s->state.stage.first_step == c.rest;
+}
+
 static void control(scree_simulation *s)
 {
     scree_state *state = &s->state;
@@ -277,6 +284,7 @@ static const scree_stage stage_face = {.name = "rotate_particle",
                                        .begin = begin,
                                        .plan = plan,
                                        .control = control,
+                                       .control_whole = control_whole,
                                        .finished = finished,
                                        .fraction = fraction,
                                        .quasistatic = true,
@@ -345,6 +353,7 @@ const scree_module scree_module_rotate_particle = {
     .keys_count = 1,
     .rules = rules,
     .numbers = &numbers,
+    .spreads = true,
     .stage = &stage_face,
     .state_size = sizeof(scree_rotation),
     .fields = fields,

@@ -34,6 +34,14 @@ static scree_status control(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
+static scree_status control_whole(const scree_context *c, bool *wanted, scree_error *error)
+{
+    const scree_simulation *s = c->simulation;
+    (void)error;
+    *wanted = s->stage->control_whole && s->stage->control_whole(s);
+    return SCREE_OK;
+}
+
 static scree_status first_half(const scree_context *c, scree_error *error)
 {
     (void)error;
@@ -112,7 +120,7 @@ static const scree_pass core[] = {
     {SCREE_PHASE_DECIDE, .run = look_ahead},
     {SCREE_PHASE_DECIDE, .run = ask_for_moments},
     {SCREE_PHASE_DECIDE, .run = choose_step},
-    {SCREE_PHASE_DECIDE, .run = control},
+    {SCREE_PHASE_DECIDE, .run = control, .whole = control_whole},
     {SCREE_PHASE_FIRST_HALF, .run = first_half},
     {SCREE_PHASE_FOLLOW, .run = advance_clock},
     {SCREE_PHASE_SEARCH, .run = refresh_neighbours},

@@ -10,8 +10,11 @@
 /// body and record.
 #include "run/waves.h"
 
+#include "base/integer_sum.h"
 #include "base/matrix.h"
 #include "case/check.h"
+#include "comm/comm.h"
+#include "comm/parts.h"
 #include "module/key_rows.h"
 #include "state/body.h"
 #include "state/fields.h"
@@ -275,24 +278,55 @@ static scree_status find_layers(const scree_context *c, const numbers *own, scre
 
 // ---- recording ---------------------------------------------------------------------------------------------------
 
-/// Mean displacements of the layers. Bodies in the order of ids: the sums are those of any thread and list.
-static void record_layers(const scree_state *state, const numbers *own, double (*to)[3], size_t *count)
+/// Displacement since the begin of the recording.
+static void displacement(const scree_state *state, size_t row, double way[3])
 {
     const memory *m = scree_waves_of(state);
-    size_t next = 0;
-    memset(to, 0, (size_t)own->layers * sizeof *to);
-    memset(count, 0, (size_t)own->layers * sizeof *count);
-    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
-        const size_t layer = layer_of(m, own, m->reference[row]);
-        double way[3];
-        scree_body_position(state, row, way);
-        for (int k = 0; k < 3; k++) way[k] -= m->reference[row][k];
-        shorten(state, way);
-        count[layer]++;
-        for (int k = 0; k < 3; k++) to[layer][k] += way[k];
+    scree_body_position(state, row, way);
+    for (int k = 0; k < 3; k++) way[k] -= m->reference[row][k];
+    shorten(state, way);
+}
+
+/// Mean displacements of the layers, from sums that do not depend on the order of the bodies, nor on who has them.
+static scree_status record_layers(const scree_state *state, const numbers *own, double (*to)[3], scree_error *error)
+{
+    const memory *m = scree_waves_of(state);
+    const size_t layers = (size_t)own->layers;
+    int64_t *count = NULL;
+    scree_integer_sum(*sum)[3] = NULL;
+    double way[3];
+    scree_status status = scree_allocate(&count, layers, sizeof *count, error);
+    if (!status) status = scree_allocate(&sum, layers, sizeof *sum, error);
+    for (size_t row = 0; row < state->count && !status; row++) count[layer_of(m, own, m->reference[row])]++;
+    while (!status && scree_comm_sum_next(state, sum[0], 3 * (int)layers))
+        for (size_t row = 0; row < state->count; row++) {
+            displacement(state, row, way);
+            const size_t layer = layer_of(m, own, m->reference[row]);
+            for (int k = 0; k < 3; k++) scree_integer_sum_add(&sum[layer][k], way[k]);
+        }
+    if (!status) scree_comm_add(state, count, layers);
+    for (size_t layer = 0; layer < layers && !status; layer++)
+        for (int k = 0; k < 3; k++) to[layer][k] = scree_integer_sum_total(&sum[layer][k]) / (double)count[layer];
+    scree_release(&count);
+    scree_release(&sum);
+    return status;
+}
+
+/// Displacements of the bodies that are listened to, which the processes tell each other.
+static void record_receivers(const scree_state *state, const numbers *own, double (*to)[3])
+{
+    const memory *m = scree_waves_of(state);
+    const size_t count = (size_t)own->receiver_count;
+    uint32_t id[SCREE_RECEIVERS];
+    for (size_t k = 0; k < count; k++) {
+        const uint32_t row = scree_state_row_of(state, id[k] = m->receiver[k].id);
+        memset(to[k], 0, sizeof to[k]);
+        if (row == SCREE_NO_ROW) continue;
+        scree_body_position(state, row, to[k]);
+        for (int i = 0; i < 3; i++) to[k][i] -= m->receiver[k].place[i];
+        shorten(state, to[k]);
     }
-    for (int64_t layer = 0; layer < own->layers; layer++)
-        for (int k = 0; k < 3; k++) to[layer][k] /= (double)count[layer];
+    if (count > 0) scree_parts_tell(state, id, count, to[0], 3);
 }
 
 static scree_status record(const scree_context *c, scree_error *error)
@@ -301,21 +335,15 @@ static scree_status record(const scree_context *c, scree_error *error)
     const numbers *own = scree_wave_numbers_of(c->model);
     memory *m = scree_waves_of(state);
     const size_t channels = scree_wave_channels(own);
-    size_t *count = NULL;
     scree_status status = scree_group_reserve(state, &scree_module_waves, &times, m->record_count + 1, error);
     if (!status) status = scree_group_reserve(state, &scree_module_waves, &values, m->value_count + channels, error);
-    if (!status) status = scree_allocate(&count, (size_t)own->layers, sizeof *count, error);
     if (status) return status;
     double(*to)[3] = m->value + m->value_count;
-    for (int64_t k = 0; k < own->receiver_count; k++) {
-        scree_body_position(state, scree_state_row_of(state, m->receiver[k].id), to[k]);
-        for (int i = 0; i < 3; i++) to[k][i] -= m->receiver[k].place[i];
-        shorten(state, to[k]);
-    }
-    if (own->layers > 0) record_layers(state, own, to + own->receiver_count, count);
+    record_receivers(state, own, to);
+    if (own->layers > 0) status = record_layers(state, own, to + own->receiver_count, error);
+    if (status) return status;
     m->time[m->record_count++] = scree_state_time(state);
     m->value_count += channels;
-    scree_release(&count);
     return SCREE_OK;
 }
 
@@ -370,6 +398,7 @@ const scree_module scree_module_waves = {
     .passes = passes,
     .pass_count = COUNT(passes),
     .in_use = in_use,
+    .spreads = true,
     .results = {scree_wave_rows, SCREE_WAVE_ROWS, NULL},
     .told = told,
     .conclude = scree_waves_conclude,

@@ -175,10 +175,12 @@ static scree_status reserve_list(const list_arrays *list, size_t count, bool wor
     return status;
 }
 
-/// Drops the pairs of two bodies of the membrane, which its chain holds together; the order stays.
+/// Drops the pairs of two bodies of the membrane, which its chain holds together; the order stays. Of a pair with a
+/// ghost one is here.
 static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buffer)
 {
     size_t kept = 0;
+    if (state->marked[SCREE_MARK_MEMBRANE] == 0) return;
     for (size_t k = 0; k < buffer->count; k++) {
         scree_row_pair pair = buffer->pair[k];
         if (scree_body_is_grain(state, pair.first) || scree_body_is_grain(state, pair.second))
@@ -208,7 +210,6 @@ static void pairs_share(void *argument, int index, int count)
                                                   &task->search->fast, &chunk->element, NULL);
     scree_held_drop(state, &chunk->touching);
     scree_held_drop(state, &chunk->near);
-    if (state->marked[SCREE_MARK_MEMBRANE] == 0) return;
     drop_membrane_pairs(state, &chunk->touching);
     drop_membrane_pairs(state, &chunk->near);
 }
@@ -455,6 +456,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
                                   error);
     scree_held_drop(state, &search->ghosts.touching);
     scree_held_drop(state, &search->ghosts.near);
+    drop_membrane_pairs(state, &search->ghosts.touching);
+    drop_membrane_pairs(state, &search->ghosts.near);
     if (!status) status = scree_held_find(model, state, work, &search->held, error);
     scree_state_set_laws(state, model);
     if (!status) status = assemble(model, state, work, error);

@@ -44,7 +44,7 @@ more "$(estimate memory 8)" "0.5 * $(estimate memory 1)" 'memory of 8 processes:
 more "$(estimate sends 8)" "1.5 * $(estimate sends 64)" 'bytes of 8 and of 64 processes'
 more "3 * $(estimate sends 64)" "$(estimate sends 8)" 'bytes go with the surface'
 for wrong in 0 -1 5000 two; do expect 2 "^scree check: --ranks: .*from 1 to 4096" "$scree" check shear.yaml --ranks=$wrong; done
-expect 2 "stage 'rotate_particle' cannot be spread over several processes yet" "$scree" check rotation-length --quick --ranks 2
+expect 2 "stage 'collide' cannot be spread over several processes yet" "$scree" check restitution --quick --ranks 2
 mkdir run
 cp shear.yaml run/case.yaml
 expect 2 'not asked of the folder of a run' "$scree" check run --ranks 2
@@ -68,8 +68,8 @@ launcher=$(command -v mpirun)
 make_programs
 printf '#!/bin/bash\nprintf "%%s " "$@" >>"%s/launched.txt"\necho >>"%s/launched.txt"\nunset SLURM_JOB_ID SLURM_NTASKS\nexec "%s" --oversubscribe "$@"\n' "$scratch" "$scratch" "$launcher" >programs/mpirun
 chmod +x programs/mpirun
-sed 's/shear.yaml/rotation-length\nquick: yes/' few.yaml >turned.yaml
-expect 2 "stage 'rotate_particle' cannot be spread" "$scree" sweep turned.yaml -o no --ranks 2 --slurm no.sh
+sed 's/shear.yaml/restitution\nquick: yes/' few.yaml >struck.yaml
+expect 2 "stage 'collide' cannot be spread" "$scree" sweep struck.yaml -o no --ranks 2 --slurm no.sh
 expect 0 'sbatch array.sh' "$scree" sweep few.yaml -o array --ranks 2 --threads 1 --slurm array.sh
 expect 0 '' bash -n array.sh
 grep -q '^#SBATCH --ntasks=2$' array.sh || complain "array.sh does not ask for two tasks: $(cat array.sh)"
