@@ -7,7 +7,8 @@
 /// found before it is believed. HDF5
 /// prints nothing: its own messages become part of the scree_error. Every handle below a file closes with it. Nothing
 /// is compressed: shuffle and deflate save 13 % on such data at 37 MB/s (docs/output.md). Memory: twice the file while
-/// it is saved. Limits: one file must fit into memory; a thread waits while another one has a file open.
+/// it is saved. Limits: one file must fit into memory, unless several processes write it together (io/together.h); a
+/// thread waits while another one has a file open.
 #ifndef SCREE_IO_HDF5_FILE_H
 #define SCREE_IO_HDF5_FILE_H
 
