@@ -6,6 +6,7 @@
 
 #include "base/checksum.h"
 #include "case/config.h"
+#include "comm/comm.h"
 #include "contact/settle.h"
 #include "module/stage.h"
 #include "state/fields.h"
@@ -167,7 +168,9 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
 {
     (void)index, (void)error;
     const scree_state *state = c->state;
-    value[0] = (double)scree_bonds_standing(state);
+    int64_t standing = (int64_t)scree_bonds_standing(state);
+    scree_comm_add(state, &standing, 1);
+    value[0] = (double)standing;
     value[1] = (double)broken(state, SCREE_BREAK_TENSION);
     value[2] = (double)broken(state, SCREE_BREAK_SHEAR);
     value[3] = scree_bonds_of(state)->fracture;
@@ -211,7 +214,7 @@ const scree_module scree_module_bonds = {
     .in_use = in_use,
     .spreads = true,
     .work = work,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(results, summarise),
     .told = told,
 };

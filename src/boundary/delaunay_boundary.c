@@ -175,6 +175,6 @@ const scree_module scree_module_delaunay_boundary = {
     .derive = derive,
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .spreads = true,
 };

@@ -84,6 +84,16 @@ size_t scree_comm_deliver(const void *out, const size_t *send, void *in, const s
 /// process r.
 void scree_comm_gather(const void *mine, void *all, const size_t *counts, size_t size);
 
+/// All have `size` bytes as process 0 has them.
+void scree_comm_share(void *bytes, size_t size);
+
+// ---- files that all write together -------------------------------------------------------------------------------
+
+/// Sets up a file of HDF5 (`access`: a property list of access) or its arrays (`transfer`: one of transfers) for all
+/// processes at once; false on failure. Alone there is nothing to set up.
+bool scree_comm_open_together(int64_t access);
+bool scree_comm_write_together(int64_t transfer);
+
 // ---- parts of space ----------------------------------------------------------------------------------------------
 
 /// Cuts space anew, so that each part holds about as many of all places [m]. All of them call it, each with its own.

@@ -273,3 +273,12 @@ void scree_comm_gather(const void *mine, void *all, const size_t *counts, size_t
     (void)MPI_Type_free(&type);
     scree_traffic_count(others, others * counts[rank] * bytes, MPI_Wtime() - began);
 }
+
+void scree_comm_share(void *bytes, size_t count)
+{
+    if (size == 1) return;
+    const double began = MPI_Wtime();
+    (void)MPI_Bcast(bytes, (int)count, MPI_BYTE, 0, together);
+    scree_traffic_count(rank == 0 ? (size_t)(size - 1) : 0, rank == 0 ? (size_t)(size - 1) * count : 0,
+                        MPI_Wtime() - began);
+}

@@ -17,6 +17,7 @@
 #include "state/store.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -380,6 +381,9 @@ scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_erro
         state->changes++;
         forget_ghosts(work);
         work->valid = false;
+        status = scree_store_shrink(state, error);
+        for (size_t k = 0; k < sets && !status; k++)
+            if (set[k].group) status = scree_group_shrink(state, set[k].owner, set[k].group, error);
     }
     scree_release(&to);
     return status;
@@ -427,7 +431,18 @@ static scree_status gather_pairs(scree_state *state, scree_work *work, const scr
     return SCREE_OK;
 }
 
-scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error)
+static void count_reason(scree_parts *parts, const char *what)
+{
+    size_t k = 0;
+    parts->gathers++;
+    while (k < parts->reasons && strcmp(parts->reason[k].what, what) != 0) k++;
+    if (k == SCREE_GATHER_REASONS) k--;
+    if (k == parts->reasons)
+        (void)snprintf(parts->reason[parts->reasons++].what, sizeof parts->reason->what, "%s", what);
+    parts->reason[k].count++;
+}
+
+scree_status scree_parts_gather(scree_state *state, scree_work *work, const char *what, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS];
     scree_pair_set set[SCREE_PAIR_SETS];
@@ -447,6 +462,6 @@ scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_erro
     forget_ghosts(work);
     work->valid = false;
     work->clear_rows = 0;
-    work->parts->gathers++;
+    count_reason(work->parts, what);
     return SCREE_OK;
 }

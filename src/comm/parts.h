@@ -17,6 +17,14 @@
 
 #include "comm/message.h"
 
+/// Who has asked for whole states, and how often.
+typedef struct scree_gather_reason {
+    char what[80];
+    uint64_t count;
+} scree_gather_reason;
+
+enum { SCREE_GATHER_REASONS = 24 }; ///< told apart; those behind are counted with the last one
+
 typedef struct scree_parts {
     scree_ghost *sent; ///< ghosts of own bodies that other processes have, in the order of these
     int32_t *sent_to;  ///< while they are chosen: the process of each
@@ -24,19 +32,23 @@ typedef struct scree_parts {
     size_t *send, *receive; ///< of each process: ghosts that it has of ours, that we have of its bodies
     unsigned char *out, *in;
     size_t out_capacity, in_capacity;
-    uint64_t seed; ///< not 0: bodies go to processes at random, from this seed (tests)
+    double (*half)[9]; ///< while contacts are listed: velocity and spin at n - 1/2 of ghosts of others, and the place
+                       ///< of the body itself
+    uint64_t seed;     ///< not 0: bodies go to processes at random, from this seed (tests)
     uint64_t draws;
     // counted since the begin of the process
-    uint64_t gathers, gathered; ///< states put together, and their bytes
-    uint64_t cuts, lists;       ///< of space; lists with ghosts
-    uint64_t moved;             ///< bodies that have changed their process
-    uint64_t steps, bytes;      ///< messages of steps: how often, and what this process sent
-    uint64_t ghosts;            ///< from other processes, sum over the lists
-    uint64_t taken;             ///< steps
-    uint64_t taken_bodies;      ///< of this part, sum over the steps
-    uint64_t taken_ghosts;      ///< from other processes, sum over the steps
-    uint64_t needed;            ///< bytes that the fields of ghosts need in the steps, sent by this process
-    double worst;               ///< bodies of the fullest part over their mean, largest when a list was due
+    uint64_t gathers, gathered;                       ///< states put together, and their bytes
+    scree_gather_reason reason[SCREE_GATHER_REASONS]; ///< of `gathers`
+    size_t reasons;
+    uint64_t cuts, lists;  ///< of space; lists with ghosts
+    uint64_t moved;        ///< bodies that have changed their process
+    uint64_t steps, bytes; ///< messages of steps: how often, and what this process sent
+    uint64_t ghosts;       ///< from other processes, sum over the lists
+    uint64_t taken;        ///< steps
+    uint64_t taken_bodies; ///< of this part, sum over the steps
+    uint64_t taken_ghosts; ///< from other processes, sum over the steps
+    uint64_t needed;       ///< bytes that the fields of ghosts need in the steps, sent by this process
+    double worst;          ///< bodies of the fullest part over their mean, largest when a list was due
 } scree_parts;
 
 /// Bodies of the fullest part over their mean from which on space is cut anew when a list is made.
@@ -47,8 +59,9 @@ typedef struct scree_parts {
 scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Back to a whole state, in all processes. Contacts have been saved, or no list has been made since the state was
-/// spread; they are in the state behind it. Errors: memory.
-scree_status scree_parts_gather(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+/// spread; they are in the state behind it. what: for whom, in the counts. Errors: memory.
+scree_status scree_parts_gather(scree_state *state, scree_work *work, const char *what,
+                                scree_error *error) SCREE_MUST_USE;
 
 /// Before a list is made anew: bodies go to the processes in whose parts they lie, with all that fields declare and
 /// what their contacts remember, which is in the state. Errors: memory.

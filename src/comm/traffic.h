@@ -18,6 +18,8 @@ typedef enum scree_traffic_purpose {
     SCREE_TRAFFIC_STEPS,      ///< what ghosts follow in and give back in each step
     SCREE_TRAFFIC_LISTS,      ///< when lists are made: cuts, bodies that move, new ghosts
     SCREE_TRAFFIC_GATHERS,    ///< whole states
+    SCREE_TRAFFIC_FILES,      ///< rows of snapshots and checkpoints, to the processes that write them (comm/ranges.h)
+    SCREE_TRAFFIC_SAMPLES,    ///< what measures of parts say to each other
     SCREE_TRAFFIC_PLACES,     ///< of all grains, when the boundary of the sample is found anew (measure/grain_places.h)
     SCREE_TRAFFIC_PURPOSES
 } scree_traffic_purpose;

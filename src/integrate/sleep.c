@@ -477,8 +477,10 @@ static const scree_result columns[] = {{"awake", "1", "particles that do not sle
 
 static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
 {
+    int64_t awake = (int64_t)(c->state->count - scree_sleep_of(c->state)->count);
     (void)index, (void)error;
-    value[0] = (double)(c->state->count - scree_sleep_of(c->state)->count);
+    scree_comm_add(c->state, &awake, 1);
+    value[0] = (double)awake;
     return SCREE_OK;
 }
 
@@ -568,7 +570,7 @@ const scree_module scree_module_sleep = {
     .in_use = in_use,
     .spreads = true,
     .work = work,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(results, tell),
     .told = told,
 };

@@ -55,6 +55,12 @@ static void copy_shared(const scree_array *array, const scree_field *field, scre
     }
 }
 
+/// Rows of bodies one after the other, in the order of ids or as they lie; begin with *at = 0.
+static size_t next_row(const scree_state *state, bool by_id, size_t *at)
+{
+    return by_id ? scree_next_by_id(state, at) : (*at)++;
+}
+
 scree_status scree_array_from_field(const scree_state *state, const scree_field *field, bool by_id, scree_array *array,
                                     scree_error *error)
 {
@@ -68,11 +74,25 @@ scree_status scree_array_from_field(const scree_state *state, const scree_field 
     by_id = by_id && field->rows == SCREE_ROWS_BODIES;
     const size_t size = (size_t)array->components * scree_field_size(array->type);
     unsigned char *target = array->data;
-    size_t id = 0;
+    size_t at = 0;
     const unsigned char *first = array->rows > 0 ? scree_field_get(state, field, 0) : NULL;
     for (size_t k = 0; k < array->rows; k++, target += size)
-        memcpy(target, first + field->stride * (by_id ? scree_next_by_id(state, &id) : k), size);
+        memcpy(target, first + field->stride * next_row(state, by_id, &at), size);
     return SCREE_OK;
+}
+
+scree_status scree_array_send(const scree_route *route, scree_array *array, scree_error *error)
+{
+    if (!route) return SCREE_OK;
+    scree_array range = *array;
+    range.rows = route->rows;
+    range.begin = route->begin;
+    range.total = route->total;
+    scree_status status = scree_array_allocate(&range, error);
+    if (!status) status = scree_route_move(route, array->data, range.data, scree_array_row_size(array), error);
+    scree_array_destroy(array);
+    *array = range;
+    return status;
 }
 
 void scree_array_to_field(const scree_array *array, const scree_field *field, scree_state *state)
@@ -157,7 +177,7 @@ static bool is_in_snapshot(const scree_state *state, const scree_field *field)
 {
     if (field->rows != SCREE_ROWS_BODIES || !field->snapshot || !scree_field_exists(field, state->dimension))
         return false;
-    return !field->optional || scree_field_rows_count(state, field) > 0;
+    return !field->optional || (scree_state_total(state) > 0 && scree_field_is_made(state, field));
 }
 
 /// The index-th field of bodies in snapshots, NULL when there are fewer.
@@ -184,7 +204,7 @@ scree_status scree_body_array(const scree_model *model, const scree_state *state
                               scree_error *error)
 {
     const scree_field *field = snapshot_field(state, index);
-    if (field) return scree_array_from_field(state, field, true, array, error);
+    if (field) return scree_array_from_field(state, field, !state->part, array, error);
     const body_result *result = &body_results[index - snapshot_field_count(state)];
     *array = (scree_array){.name = result->name,
                            .type = SCREE_FIELD_DOUBLE,
@@ -195,9 +215,9 @@ scree_status scree_body_array(const scree_model *model, const scree_state *state
     scree_status status = scree_array_allocate(array, error);
     if (status) return status;
     double *value = array->data;
-    size_t id = 0;
-    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW; value += array->components)
-        result->evaluate(model, state, row, value);
+    size_t at = 0;
+    for (size_t k = 0; k < state->count; k++, value += array->components)
+        result->evaluate(model, state, next_row(state, !state->part, &at), value);
     return SCREE_OK;
 }
 

@@ -2,6 +2,7 @@
 ///
 /// The checksum of the file (checksum.h) tells whether it is whole; when it is not, or what it holds cannot be used,
 /// the older of the two is read, or else a snapshot, which holds a state, too.
+#include "comm/comm.h"
 #include "io/disk.h"
 #include "io/file_checksum.h"
 #include "io/run_file.h"
@@ -82,12 +83,15 @@ scree_status scree_restart_points_list(const char *directory, scree_restart_poin
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-static scree_status write_part(const char *path, const char *group, const scree_state *state, uint64_t case_checksum,
-                               scree_error *error)
+static scree_status write_part(const char *path, const char *group, const scree_state *state,
+                               const scree_ranges *ranges, uint64_t case_checksum, scree_error *error)
 {
     scree_hdf5 part;
-    scree_hdf5_create(&part, path, error);
-    scree_state_write(&part, group, NULL, state, case_checksum);
+    if (ranges)
+        scree_hdf5_create_together(&part, path, error);
+    else
+        scree_hdf5_create(&part, path, error);
+    scree_state_write(&part, group, NULL, state, ranges, case_checksum);
     return scree_hdf5_save(&part);
 }
 
@@ -115,33 +119,40 @@ static scree_status next_index(const char *directory, int64_t *index, scree_erro
 
 /// Everything that a checkpoint counts on is on the disk before it has a name, and its name before older ones lose
 /// theirs.
-static scree_status write_durably(const char *directory, const char *path, const char *group, const scree_state *state,
-                                  uint64_t case_checksum, scree_error *error)
+static scree_status finish_checkpoint(const char *directory, scree_error *error)
 {
     const scree_kept all = SCREE_KEEP_ALL;
+    scree_part_list parts = {0};
     scree_status status = scree_parts_sync(directory, error);
-    if (!status) status = write_part(path, group, state, case_checksum, error);
-    if (!status) status = scree_parts_sync(directory, error);
     if (!status) status = scree_run_file_renew(directory, NULL, &all, NULL, error);
-    return status ? status : scree_folder_sync(directory, error);
+    if (!status) status = scree_folder_sync(directory, error);
+    if (!status) status = scree_parts_list(directory, SCREE_PART_CHECKPOINT, &parts, error);
+    if (!status) status = remove_old(directory, &parts, error);
+    scree_part_list_destroy(&parts);
+    return status;
+}
+
+scree_status scree_checkpoint_write_ranges(const char *directory, const scree_state *state, const scree_ranges *ranges,
+                                           uint64_t case_checksum, scree_error *error)
+{
+    char path[PATH_MAX], group[64];
+    int64_t index = 0;
+    const bool writes = !ranges || scree_comm_rank() == 0;
+    scree_status status = writes ? next_index(directory, &index, error) : SCREE_OK;
+    if (!status && writes) status = scree_parts_folder_make(directory, error);
+    if (!status && writes) status = scree_parts_sync(directory, error);
+    if (status) return status;
+    if (ranges) scree_comm_share(&index, sizeof index);
+    scree_part_group(SCREE_PART_CHECKPOINT, index, group, sizeof group);
+    status = scree_part_path(directory, SCREE_PART_CHECKPOINT, index, path, sizeof path, error);
+    if (!status) status = write_part(path, group, state, ranges, case_checksum, error);
+    return status || !writes ? status : finish_checkpoint(directory, error);
 }
 
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error)
 {
-    char path[PATH_MAX], group[64];
-    int64_t index;
-    scree_status status = next_index(directory, &index, error);
-    if (status) return status;
-    scree_part_group(SCREE_PART_CHECKPOINT, index, group, sizeof group);
-    status = scree_parts_folder_make(directory, error);
-    if (!status) status = scree_part_path(directory, SCREE_PART_CHECKPOINT, index, path, sizeof path, error);
-    if (!status) status = write_durably(directory, path, group, state, case_checksum, error);
-    scree_part_list parts = {0};
-    if (!status) status = scree_parts_list(directory, SCREE_PART_CHECKPOINT, &parts, error);
-    if (!status) status = remove_old(directory, &parts, error);
-    scree_part_list_destroy(&parts);
-    return status;
+    return scree_checkpoint_write_ranges(directory, state, NULL, case_checksum, error);
 }
 
 // ---- reading -----------------------------------------------------------------------------------------------------

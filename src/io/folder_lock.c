@@ -68,7 +68,8 @@ static void write_holder(int file, const char *user)
     (void)strftime(stamp, sizeof stamp, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&seconds, &begin));
     int length =
         snprintf(text, sizeof text, "%s, process %ld on host %s, since %s\n", user, (long)getpid(), host, stamp);
-    bool written = ftruncate(file, 0) == 0 && pwrite(file, text, (size_t)length, 0) == length;
+    // Flushed, so that other machines see it.
+    bool written = ftruncate(file, 0) == 0 && pwrite(file, text, (size_t)length, 0) == length && fsync(file) == 0;
     (void)written;
 }
 
@@ -125,4 +126,16 @@ bool scree_folder_lock_is_held(const char *directory, char *who, size_t size)
     if (held) read_holder(file, who, size);
     close(file);
     return held;
+}
+
+void scree_folder_lock_text(const char *directory, char *text, size_t size)
+{
+    char path[PATH_MAX];
+    text[0] = 0;
+    if (scree_path_join(path, sizeof path, directory, SCREE_FILE_LOCK, NULL)) return;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0) return;
+    ssize_t got = pread(file, text, size - 1, 0);
+    text[got > 0 ? got : 0] = 0;
+    close(file);
 }

@@ -29,6 +29,9 @@ scree_status scree_folder_lock_take(scree_folder_lock *lock, const char *directo
                                     scree_error *error) SCREE_MUST_USE;
 void scree_folder_lock_release(scree_folder_lock *lock);
 
+/// What is written in the lock of a folder, which no other one has; empty: nothing, or there is no lock.
+void scree_folder_lock_text(const char *directory, char *text, size_t size);
+
 /// Whether somebody holds the lock now; `who` gets what is known of them.
 bool scree_folder_lock_is_held(const char *directory, char *who, size_t size);
 

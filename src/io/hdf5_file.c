@@ -2,10 +2,12 @@
 #include "io/hdf5_file.h"
 
 #include "base/memory.h"
+#include "comm/comm.h"
 #include "io/file_checksum.h"
 #include "io/run_directory.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -19,9 +21,9 @@ static pthread_mutex_t in_use = PTHREAD_RECURSIVE_MUTEX_INITIALIZER_NP;
 
 /// Growth of a file in memory.
 enum { MEMORY_STEP = 1 << 20 };
-/// Bytes: datasets up to here lie in their object header (which holds 64 KiB); larger ones in one chunk, which needs no
-/// index, up to that size.
-enum { COMPACT_SIZE = 8192, CHUNK_SIZE = 1 << 30 };
+/// Bytes: datasets up to SCREE_ARRAY_SMALL lie in their object header (which holds 64 KiB); of larger ones what a
+/// process writes lies in one chunk, up to this size.
+enum { CHUNK_SIZE = 1 << 30 };
 enum { MOST_COMPACT = 65535 };
 /// What HDF5 1.10 takes for itself in a file, with room to spare (2 MB were seen).
 enum { LIBRARY_BYTES = 4 << 20 };
@@ -127,14 +129,12 @@ static bool in_memory(hid_t access, scree_hdf5 *hdf5)
     return H5Pset_fapl_core(access, MEMORY_STEP, false) >= 0 && H5Pset_file_image_callbacks(access, &calls) >= 0;
 }
 
-/// No locks: a file on disk is never changed, only replaced, and locks fail on some network file systems. `memory`: the
-/// file that is built there, else NULL.
-static hid_t access_properties(scree_hdf5 *memory)
+/// No locks: a file on disk is never changed, only replaced, and locks fail on some network file systems.
+static hid_t access_properties(void)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     bool good = access >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_LATEST) >= 0 &&
-                H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
-                (!memory || in_memory(access, memory));
+                H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0;
     if (good) return access;
     if (access >= 0) H5Pclose(access);
     return H5I_INVALID_HID;
@@ -148,15 +148,38 @@ static bool set_compact(hid_t made)
            H5Pset_attr_phase_change(made, MOST_COMPACT, MOST_COMPACT) >= 0;
 }
 
-void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
+static hid_t creation_properties(void)
 {
-    begin(hdf5, path, error);
-    if (hdf5->status) return;
-    hid_t access = access_properties(hdf5), made = H5Pcreate(H5P_FILE_CREATE);
-    if (access >= 0 && made >= 0 && set_compact(made)) hdf5->file = H5Fcreate(path, H5F_ACC_TRUNC, made, access);
+    hid_t made = H5Pcreate(H5P_FILE_CREATE);
+    if (made < 0 || set_compact(made)) return made;
+    H5Pclose(made);
+    return H5I_INVALID_HID;
+}
+
+/// A file in memory, or one that all processes write.
+static void make_file(scree_hdf5 *hdf5, const char *name)
+{
+    hid_t access = access_properties(), made = creation_properties();
+    bool good = access >= 0 && made >= 0;
+    if (good) good = hdf5->together.path ? scree_comm_open_together(access) : in_memory(access, hdf5);
+    if (good) hdf5->file = H5Fcreate(name, H5F_ACC_TRUNC, made, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "prepare", NULL);
     if (made >= 0) H5Pclose(made);
     if (access >= 0) H5Pclose(access);
+}
+
+void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    begin(hdf5, path, error);
+    if (!hdf5->status) make_file(hdf5, path);
+}
+
+void scree_hdf5_create_together(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    char name[PATH_MAX];
+    begin(hdf5, path, error);
+    if (!hdf5->status && scree_comm_size() > 1) hdf5->status = scree_together_begin(&hdf5->together, path, name, error);
+    if (!hdf5->status) make_file(hdf5, hdf5->together.path ? name : path);
 }
 
 static void open_existing(scree_hdf5 *hdf5, unsigned mode)
@@ -168,7 +191,7 @@ static void open_existing(scree_hdf5 *hdf5, unsigned mode)
         hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot open '%s'", hdf5->path);
         return;
     }
-    hid_t access = access_properties(NULL);
+    hid_t access = access_properties();
     if (access >= 0) hdf5->file = H5Fopen(hdf5->path, mode, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "open", NULL);
     if (access >= 0) H5Pclose(access);
@@ -217,7 +240,7 @@ static size_t take_ghost(scree_hdf5 *hdf5)
     return size < 0 ? 0 : (size_t)size;
 }
 
-scree_status scree_hdf5_save(scree_hdf5 *hdf5)
+static void save_image(scree_hdf5 *hdf5)
 {
     FILE *file;
     size_t size = hdf5->status ? 0 : take_ghost(hdf5);
@@ -233,6 +256,24 @@ scree_status scree_hdf5_save(scree_hdf5 *hdf5)
     }
     free(hdf5->image);
     hdf5->image = NULL;
+}
+
+static void save_together(scree_hdf5 *hdf5)
+{
+    if (!hdf5->status) hdf5->status = scree_together_take_room(&hdf5->together, hdf5->error);
+    if (!hdf5->status && (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || H5Fclose(hdf5->file) < 0))
+        scree_hdf5_fail(hdf5, "write", NULL);
+    // What has failed is not closed, since all would have to take part.
+    hdf5->file = H5I_INVALID_HID;
+    hdf5->status = scree_together_end(&hdf5->together, hdf5->status, hdf5->error);
+}
+
+scree_status scree_hdf5_save(scree_hdf5 *hdf5)
+{
+    if (hdf5->together.path)
+        save_together(hdf5);
+    else
+        save_image(hdf5);
     return scree_hdf5_close(hdf5);
 }
 
@@ -300,17 +341,17 @@ void scree_hdf5_group(scree_hdf5 *hdf5, const char *name)
 }
 
 /// Creation properties of a dataset, so that its values have a checksum: small ones lie in the object header, which has
-/// one, others in a chunk with Fletcher's. Negative on failure.
-static hid_t with_checksum(const scree_array *array, int rank, const hsize_t dimensions[2])
+/// one, others in chunks with Fletcher's: one of each process that writes. Negative on failure.
+static hid_t with_checksum(const scree_hdf5 *hdf5, const scree_array *all, int rank, const hsize_t dimensions[2])
 {
-    size_t row = (size_t)array->components * scree_field_size(array->type), size = array->rows * row;
     hid_t made = H5Pcreate(H5P_DATASET_CREATE);
     bool good = made >= 0;
-    if (good && size <= COMPACT_SIZE) {
+    if (good && scree_array_is_small(all)) {
         good = H5Pset_layout(made, H5D_COMPACT) >= 0;
     } else if (good) {
-        size_t chunks = (size + CHUNK_SIZE - 1) / CHUNK_SIZE;
-        const hsize_t chunk[2] = {(array->rows + chunks - 1) / chunks, rank > 1 ? dimensions[1] : 1};
+        size_t rows = hdf5->together.path ? scree_range_rows(all->rows) : all->rows;
+        size_t chunks = (rows * scree_array_row_size(all) + CHUNK_SIZE - 1) / CHUNK_SIZE;
+        const hsize_t chunk[2] = {(rows + chunks - 1) / chunks, rank > 1 ? dimensions[1] : 1};
         good = H5Pset_chunk(made, rank, chunk) >= 0 && H5Pset_fletcher32(made) >= 0;
     }
     if (good) return made;
@@ -318,26 +359,44 @@ static hid_t with_checksum(const scree_array *array, int rank, const hsize_t dim
     return H5I_INVALID_HID;
 }
 
+/// Room in memory and on the disk for an array, which as the file has it is `all`.
+static scree_status prepare(scree_hdf5 *hdf5, const scree_array *array, scree_array *all)
+{
+    const bool together = hdf5->together.path != NULL;
+    // The file in memory grows by being copied.
+    hdf5->written = array->rows * scree_array_row_size(array) + (together ? 0 : hdf5->written);
+    scree_status status = scree_memory_check(2 * hdf5->written + LIBRARY_BYTES, hdf5->error);
+    return status || !together ? status : scree_together_prepare(&hdf5->together, array, all, hdf5->error);
+}
+
+static bool write_rows(const scree_hdf5 *hdf5, hid_t dataset, const scree_array *array, const scree_array *all)
+{
+    const hid_t type = memory_type(array->type);
+    if (all->rows == 0) return true;
+    if (hdf5->together.path && !scree_array_is_small(all)) return scree_together_write(dataset, type, array, all);
+    return H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all->data) >= 0;
+}
+
 void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *array)
 {
     if (hdf5->status) return;
     char name[160];
+    scree_array all = *array;
+    all.rows = scree_array_total(array);
     path_in_file(name, sizeof name, group, array->name);
-    // The file in memory grows by being copied.
-    hdf5->written += array->rows * (size_t)array->components * scree_field_size(array->type);
-    if ((hdf5->status = scree_memory_check(2 * hdf5->written + LIBRARY_BYTES, hdf5->error))) return;
+    if ((hdf5->status = prepare(hdf5, array, &all))) return;
     hsize_t dimensions[2];
-    int rank = dimensions_of(array, dimensions);
+    int rank = dimensions_of(&all, dimensions);
     hid_t space = rank ? H5Screate_simple(rank, dimensions, NULL) : H5Screate(H5S_SCALAR);
-    hid_t dataset = H5I_INVALID_HID, type = memory_type(array->type), layout = with_checksum(array, rank, dimensions);
+    hid_t dataset = H5I_INVALID_HID, layout = with_checksum(hdf5, &all, rank, dimensions);
     make_groups_above(hdf5, name);
     if (space >= 0 && layout >= 0)
-        dataset = H5Dcreate2(hdf5->file, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
-    if (dataset < 0 || (array->rows > 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) < 0))
-        scree_hdf5_fail(hdf5, "write", name);
+        dataset = H5Dcreate2(hdf5->file, name, memory_type(array->type), space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    if (dataset < 0 || !write_rows(hdf5, dataset, array, &all)) scree_hdf5_fail(hdf5, "write", name);
     if (dataset >= 0) H5Dclose(dataset);
     if (layout >= 0) H5Pclose(layout);
     if (space >= 0) H5Sclose(space);
+    if (all.data != array->data) scree_array_destroy(&all);
     scree_hdf5_set_text(hdf5, name, "unit", array->unit);
     scree_hdf5_set_text(hdf5, name, "description", array->meaning);
 }

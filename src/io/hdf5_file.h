@@ -7,22 +7,24 @@
 /// found before it is believed. HDF5
 /// prints nothing: its own messages become part of the scree_error. Every handle below a file closes with it. Nothing
 /// is compressed: shuffle and deflate save 13 % on such data at 37 MB/s (docs/output.md). Memory: twice the file while
-/// it is saved. Limits: one file must fit into memory; a thread waits while another one has a file open.
+/// it is saved. Limits: one file must fit into memory, unless several processes write it together (io/together.h); a
+/// thread waits while another one has a file open.
 #ifndef SCREE_IO_HDF5_FILE_H
 #define SCREE_IO_HDF5_FILE_H
 
-#include "io/array.h"
+#include "io/together.h"
 
 #include <hdf5.h>
 
 typedef struct scree_hdf5 {
-    size_t written;      ///< bytes of arrays
-    hid_t file;          ///< negative: none
-    const char *path;    ///< named in messages; caller-owned
-    scree_status status; ///< first failure
-    bool damaged;        ///< the failure lies in the file, not in memory or in the caller
-    scree_error *error;  ///< may be NULL
-    bool keep;           ///< a file in memory leaves its bytes in `image` when it closes
+    size_t written;          ///< bytes of arrays
+    hid_t file;              ///< negative: none
+    const char *path;        ///< named in messages; caller-owned
+    scree_status status;     ///< first failure
+    bool damaged;            ///< the failure lies in the file, not in memory or in the caller
+    scree_error *error;      ///< may be NULL
+    scree_together together; ///< all processes write it
+    bool keep;               ///< a file in memory leaves its bytes in `image` when it closes
     void *image;
     H5E_auto2_t printing; ///< what HDF5 did with its messages before
     void *printing_data;
@@ -30,7 +32,9 @@ typedef struct scree_hdf5 {
 
 /// Opens. `path` must outlive the file. All files that are open at the same time are closed in reverse order.
 void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error); ///< new, in memory
-void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error);   ///< to read
+void scree_hdf5_create_together(scree_hdf5 *hdf5, const char *path,
+                                scree_error *error);                          ///< new, by all processes (io/together.h)
+void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error); ///< to read
 void scree_hdf5_open_checked(scree_hdf5 *hdf5, const char *path,
                              scree_error *error); ///< to read, if its checksum is whole
 void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path,
@@ -38,8 +42,8 @@ void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path,
 
 /// Closes; returns the first failure. What is in memory and has not been saved is lost.
 scree_status scree_hdf5_close(scree_hdf5 *hdf5);
-/// Writes a file that was built in memory, with its checksum (checksum.h), over `path`, as a whole or not at all, and
-/// closes it.
+/// Writes a file that was built in memory, or by all processes, with its checksum (checksum.h), over `path`, as a whole
+/// or not at all, and closes it. Of one by all processes a process that fails must end the others.
 scree_status scree_hdf5_save(scree_hdf5 *hdf5);
 
 /// Records a failure with HDF5's innermost message; keeps the first. `action` is e.g. "write 'position' to".
@@ -58,7 +62,8 @@ void scree_hdf5_group(scree_hdf5 *hdf5, const char *name);
 /// metadata that have. Errors: SCREE_ERROR_IO with the object; memory.
 scree_status scree_hdf5_verify(scree_hdf5 *hdf5, const char *group, scree_error *error) SCREE_MUST_USE;
 
-/// Dataset `group`/`array->name` (group "" or NULL: in the root) with attributes `unit` and `description`.
+/// Dataset `group`/`array->name` (group "" or NULL: in the root) with attributes `unit` and `description`. In a file of
+/// all processes all write it: ranges, or an array that all have whole.
 void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *array);
 
 /// Reads it back: fills array->rows from the file and allocates data. Type and components must be those of `array`.

@@ -405,30 +405,6 @@ scree_status scree_run_file_rewind(const char *directory, const char *case_name,
 
 // ---- the end of a run --------------------------------------------------------------------------------------------
 
-/// Takes the disk space of a file before HDF5 writes into it: a full disk is met here and not inside the library.
-static scree_status reserve(const char *path, off_t bytes, scree_error *error)
-{
-    int file = open(path, O_RDWR | O_CLOEXEC);
-    if (file < 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
-    int number = posix_fallocate(file, 0, bytes);
-    close(file);
-    if (!number) return SCREE_OK;
-    errno = number;
-    return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write %jd bytes to '%s'", (intmax_t)bytes, path);
-}
-
-/// Puts its checksum behind `temporary`, flushes it to the disk and renames it to `path`.
-static scree_status put_in_place(const char *temporary, const char *path, scree_error *error)
-{
-    scree_status status = scree_file_checksum_append(temporary, error);
-    if (status) return status;
-    int file = open(temporary, O_RDWR | O_CLOEXEC);
-    bool good = file >= 0 && fsync(file) == 0;
-    if (file >= 0) close(file);
-    if (good && rename(temporary, path) == 0) return SCREE_OK;
-    return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
-}
-
 /// Bytes of all parts in the lists, with room for what their groups cost in one file.
 static scree_status room_for(const char *directory, const scree_part_list lists[SCREE_PART_KINDS], off_t *bytes,
                              scree_error *error)
@@ -485,7 +461,7 @@ static scree_status gather(const char *directory, const char *temporary, const c
     scree_run_file_create(&run, temporary, case_name, error);
     scree_status status = scree_hdf5_save(&run);
     if (!status) status = room_for(directory, lists, &bytes, error);
-    if (!status) status = reserve(temporary, bytes, error);
+    if (!status) status = scree_file_reserve(temporary, 0, bytes, error);
     if (status) return status;
     scree_hdf5_extend(&run, temporary, error);
     keep_little(&run);
@@ -542,7 +518,7 @@ static scree_status gather_all(const char *directory, const char *path, scree_er
         status = scree_parts_list(directory, kind, &lists[kind], error);
     if (!status) {
         status = gather(directory, temporary, case_name, lists, error);
-        if (!status) status = put_in_place(temporary, path, error);
+        if (!status) status = scree_replacement_put(temporary, path, error);
         if (status) unlink(temporary);
     }
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++) scree_part_list_destroy(&lists[kind]);

@@ -5,6 +5,7 @@
 #include "boundary/membrane.h"
 
 #include "boundary/sheet.h"
+#include "comm/comm.h"
 #include "io/cell_file.h"
 #include "io/run_file.h"
 #include "io/state_file.h"
@@ -19,40 +20,61 @@
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-static void write_bodies(scree_hdf5 *part, const char *group, const scree_model *model, const scree_state *state)
+static void write_bodies(scree_hdf5 *part, const char *group, const scree_model *model, const scree_state *state,
+                         const scree_ranges *ranges)
 {
     for (size_t k = 0; k < scree_body_array_count(state) && !part->status; k++) {
         scree_array array;
         part->status = scree_body_array(model, state, k, &array, part->error);
+        if (!part->status && state->part) part->status = scree_array_send(&ranges->bodies, &array, part->error);
         scree_hdf5_write(part, group, &array);
         scree_array_destroy(&array);
     }
+}
+
+/// Contacts of a part go to the processes that write them.
+static scree_status route_contacts(const scree_state *state, const scree_contact_table *table, scree_route *route,
+                                   scree_error *error)
+{
+    uint64_t *key;
+    scree_status status = scree_allocate(&key, table->count + 1, sizeof *key, error);
+    if (status) return status;
+    for (size_t k = 0; k < table->count; k++) {
+        const scree_contact *contact = &table->contact[k];
+        key[k] = scree_route_key(state->id[contact->first], scree_contact_second_id(state, contact));
+    }
+    status = scree_route_open(route, key, table->count, state->next_id, error);
+    scree_release(&key);
+    return status;
 }
 
 static void write_contacts(scree_hdf5 *part, const char *group, const scree_state *state,
                            const scree_contact_table *table)
 {
     char folder[80];
+    scree_route route = {0};
+    if (!part->status && state->part) part->status = route_contacts(state, table, &route, part->error);
     (void)snprintf(folder, sizeof folder, "%s/contacts", group);
     for (size_t k = 0; k < scree_contact_array_count() && !part->status; k++) {
         scree_array array;
         part->status = scree_contact_array(state, table, k, &array, part->error);
+        if (!part->status && state->part) part->status = scree_array_send(&route, &array, part->error);
         scree_hdf5_write(part, folder, &array);
         scree_array_destroy(&array);
     }
+    scree_route_close(&route);
 }
 
 /// Boundary loop and walls, as the table of members has them.
-static void write_members(scree_hdf5 *part, const char *group, const scree_state *state)
+static void write_members(scree_hdf5 *part, const char *group, const scree_state *state, const scree_ranges *ranges)
 {
     for (size_t k = 0; k < scree_field_total() && !part->status; k++) {
         const scree_field *field = scree_field_at(k);
         bool member = field->rows != SCREE_ROWS_BODIES && field->snapshot;
         if (!member || !scree_field_exists(field, state->dimension)) continue;
-        if (field->optional && scree_field_rows_count(state, field) == 0) continue;
         scree_array array;
-        part->status = scree_array_from_field(state, field, true, &array, part->error);
-        scree_hdf5_write(part, group, &array);
+        part->status = scree_array_of_range(part, state, field, true, ranges, &array);
+        if (!field->optional || scree_array_total(&array) > 0) scree_hdf5_write(part, group, &array);
         scree_array_destroy(&array);
     }
 }
@@ -119,46 +141,58 @@ void scree_snapshot_state_group(int64_t index, char *name, size_t size)
     (void)snprintf(name, size, "%s/state", group);
 }
 
+static void write_attributes(scree_hdf5 *part, const char *group, const scree_model *model, const scree_state *state,
+                             const scree_snapshot_info *info)
+{
+    int64_t grains = (int64_t)scree_grain_count(state);
+    scree_comm_add(state, &grains, 1);
+    scree_hdf5_set_integer(part, group, "step", state->step);
+    scree_hdf5_set_integer(part, group, "dimension", (uint64_t)state->dimension);
+    scree_hdf5_set_number(part, group, "time", info->time);
+    scree_hdf5_set_text(part, group, "stage", info->stage);
+    if (info->stage_name) scree_hdf5_set_text(part, group, "stage_name", info->stage_name);
+    scree_hdf5_set_number(part, group, "axial_strain", info->axial_strain);
+    scree_hdf5_set_integer(part, group, "grains", (uint64_t)grains);
+    write_materials(part, group, model);
+    scree_hdf5_set_number(part, group, "pressure", scree_pressure_now(state));
+    scree_hdf5_set_number(part, group, "gravity_x", model->gravity[0]);
+    scree_hdf5_set_number(part, group, "gravity_y", model->gravity[1]);
+    scree_hdf5_set_number(part, group, "gravity_z", model->gravity[2]);
+    scree_hdf5_set_text(part, group, "attribute_units",
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, gravity_x m/s2, gravity_y "
+                        "m/s2, gravity_z m/s2, wall_triangles 1");
+}
+
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info, scree_error *error)
 {
     char path[PATH_MAX], group[64], folder[80];
+    const bool writes = !info->ranges || scree_comm_rank() == 0;
     scree_status status = scree_part_path(directory, SCREE_PART_SNAPSHOT, info->index, path, sizeof path, error);
-    if (!status) status = scree_parts_folder_make(directory, error);
+    if (!status && writes) status = scree_parts_folder_make(directory, error);
     if (status) return status;
     scree_part_group(SCREE_PART_SNAPSHOT, info->index, group, sizeof group);
     scree_hdf5 part;
-    scree_hdf5_create(&part, path, error);
+    if (info->ranges)
+        scree_hdf5_create_together(&part, path, error);
+    else
+        scree_hdf5_create(&part, path, error);
     scree_hdf5_group(&part, group);
-    scree_hdf5_set_integer(&part, group, "step", state->step);
-    scree_hdf5_set_integer(&part, group, "dimension", (uint64_t)state->dimension);
-    scree_hdf5_set_number(&part, group, "time", info->time);
-    scree_hdf5_set_text(&part, group, "stage", info->stage);
-    if (info->stage_name) scree_hdf5_set_text(&part, group, "stage_name", info->stage_name);
-    scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
-    scree_hdf5_set_integer(&part, group, "grains", scree_grain_count(state));
-    write_materials(&part, group, model);
-    scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));
-    scree_hdf5_set_number(&part, group, "gravity_x", model->gravity[0]);
-    scree_hdf5_set_number(&part, group, "gravity_y", model->gravity[1]);
-    scree_hdf5_set_number(&part, group, "gravity_z", model->gravity[2]);
-    scree_hdf5_set_text(&part, group, "attribute_units",
-                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, gravity_x m/s2, gravity_y "
-                        "m/s2, gravity_z m/s2, wall_triangles 1");
-    write_bodies(&part, group, model, state);
+    write_attributes(&part, group, model, state, info);
+    write_bodies(&part, group, model, state, info->ranges);
     write_contacts(&part, group, state, table);
-    write_members(&part, group, state);
+    write_members(&part, group, state, info->ranges);
     write_wall_triangles(&part, group, info->walls);
     write_sheet(&part, group, state);
     if (info->cells) scree_cells_write(&part, group, info->cells);
     if (info->restartable) {
         scree_snapshot_state_group(info->index, folder, sizeof folder);
-        scree_state_write(&part, folder, group, state, info->case_checksum);
+        scree_state_write(&part, folder, group, state, info->ranges, info->case_checksum);
     }
     status = scree_hdf5_save(&part);
     const scree_kept all = SCREE_KEEP_ALL;
     const char *case_name = model->name ? model->name : "";
-    return status ? status : scree_run_file_renew(directory, case_name, &all, NULL, error);
+    return status || !writes ? status : scree_run_file_renew(directory, case_name, &all, NULL, error);
 }
 
 // ---- reading -----------------------------------------------------------------------------------------------------

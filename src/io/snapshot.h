@@ -14,6 +14,7 @@
 #define SCREE_IO_SNAPSHOT_H
 
 #include "base/notes.h"
+#include "comm/ranges.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/cells.h"
@@ -29,6 +30,7 @@ typedef struct scree_snapshot_info {
     const char *stage_name;            ///< in the case; NULL: it has none
     const scree_cells *cells;          ///< with all their fields; NULL: not written
     const scree_wall_triangles *walls; ///< of the case; NULL: none
+    const scree_ranges *ranges;        ///< all processes write it together; NULL: this one writes it
     bool restartable;                  ///< with the whole state, which must have its contacts saved
     uint64_t case_checksum;            ///< what the state belongs to
 } scree_snapshot_info;
@@ -36,7 +38,8 @@ typedef struct scree_snapshot_info {
 /// "/snapshots/000012/state": what a snapshot has of the state besides its own fields.
 void scree_snapshot_state_group(int64_t index, char *name, size_t size);
 
-/// Writes parts/snapshot-INDEX.h5 and renews run.h5's links.
+/// Writes parts/snapshot-INDEX.h5 and renews run.h5's links. With ranges all processes call it; a part of a sample is
+/// written with its ranges alone. Errors, then: of one process alone, which has to end the others.
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info,
                                   scree_error *error) SCREE_MUST_USE;
@@ -44,6 +47,10 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
 /// Writes a checkpoint (contacts must have been saved into the state); keeps the newest two.
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error) SCREE_MUST_USE;
+/// The same by all processes, which call it together, each its range of rows. Errors: of one process alone, which has
+/// to end the others.
+scree_status scree_checkpoint_write_ranges(const char *directory, const scree_state *state, const scree_ranges *ranges,
+                                           uint64_t case_checksum, scree_error *error) SCREE_MUST_USE;
 /// Reads the newest checkpoint of a state of this dimension that is whole, or without one the newest snapshot, into
 /// *state, which must own nothing and stays empty on failure; rows are in the order in which they were written, derived
 /// arrays but row_of_id are zero. When the newest is damaged and an older one is used, the status is SCREE_OK and

@@ -7,6 +7,7 @@
 #include "io/state_file.h"
 
 #include "base/checksum.h"
+#include "comm/comm.h"
 
 #include <scree/scree.h>
 
@@ -99,22 +100,41 @@ static void read_laws(scree_hdf5 *file, const char *group, int list, scree_state
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, const scree_state *state,
-                       uint64_t case_checksum)
+/// The times of process 0, so that all write the same.
+static scree_time_spent shared_times(const scree_hdf5 *part, const scree_state *state)
 {
+    scree_time_spent spent = state->spent;
+    if (part->together.path) scree_comm_share(&spent, sizeof spent);
+    return spent;
+}
+
+scree_status scree_array_of_range(const scree_hdf5 *file, const scree_state *state, const scree_field *field,
+                                  bool by_id, const scree_ranges *ranges, scree_array *array)
+{
+    const bool part = ranges && ranges->part;
+    // Those of a part are put into the order of their ids on the way.
+    by_id = (by_id || file->together.path) && !part;
+    scree_status status = scree_array_from_field(state, field, by_id, array, file->error);
+    return status ? status : scree_array_send(scree_ranges_of(ranges, state, field), array, file->error);
+}
+
+void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, const scree_state *state,
+                       const scree_ranges *ranges, uint64_t case_checksum)
+{
+    const scree_time_spent spent = shared_times(part, state);
     scree_hdf5_group(part, group);
     scree_hdf5_set_text(part, group, "program", PROGRAM);
     scree_hdf5_set_integer(part, group, "layout", layout_checksum(state));
     write_laws(part, group, state);
     scree_hdf5_set_integer(part, group, "case_checksum", case_checksum);
-    scree_hdf5_set_number(part, group, "wall_time", state->spent.run);
-    scree_hdf5_set_number(part, group, "stage_wall_time", state->spent.stage);
-    scree_hdf5_set_number(part, group, "stage_processor_time", state->spent.processor);
+    scree_hdf5_set_number(part, group, "wall_time", spent.run);
+    scree_hdf5_set_number(part, group, "stage_wall_time", spent.stage);
+    scree_hdf5_set_number(part, group, "stage_processor_time", spent.processor);
     for (size_t k = 0; k < scree_field_total() && !part->status; k++) {
         const scree_field *field = stored_field(state, k);
         if (!field || (shared && field->snapshot)) continue;
         scree_array array;
-        part->status = scree_array_from_field(state, field, shared != NULL, &array, part->error);
+        part->status = scree_array_of_range(part, state, field, shared != NULL, ranges, &array);
         scree_hdf5_write(part, group, &array);
         scree_array_destroy(&array);
     }
@@ -132,11 +152,11 @@ static void check_origin(scree_hdf5 *file, const char *group, const scree_state 
     scree_hdf5_get_integer(file, group, "case_checksum", &origin);
     if (file->status) return;
     if (layout != layout_checksum(state))
-        file->status = scree_error_set(file->error, SCREE_ERROR_INPUT,
-                                       "'%s' is a checkpoint of another version of the state: it was written by %s, "
-                                       "this is %s%s: begin the run anew (--force)",
-                                       file->path, program,
-                                       strcmp(program, PROGRAM) == 0 ? "another build of " : "", PROGRAM);
+        file->status =
+            scree_error_set(file->error, SCREE_ERROR_INPUT,
+                            "'%s' is a checkpoint of another version of the state: it was written by %s, "
+                            "this is %s%s: begin the run anew (--force)",
+                            file->path, program, strcmp(program, PROGRAM) == 0 ? "another build of " : "", PROGRAM);
     else if (origin != case_checksum)
         file->status =
             scree_error_set(file->error, SCREE_ERROR_INPUT, "'%s' is a checkpoint of another case", file->path);

@@ -57,7 +57,8 @@ scree_status scree_simulation_contacts(scree_simulation *s, const scree_contact_
 scree_status scree_simulation_stress(scree_simulation *s, double stress[9], scree_error *error)
 {
     scree_status status = handle_find_contacts(s, error);
-    if (!status) scree_stress_from_contacts(&s->table, scree_sample_volume(&s->stage_model, &s->state), stress);
+    if (!status)
+        scree_stress_from_contacts(&s->state, &s->table, scree_sample_volume(&s->stage_model, &s->state), stress);
     return status;
 }
 
@@ -94,7 +95,8 @@ scree_status scree_simulation_structure(scree_simulation *s, scree_structure *st
     scree_coordination coordination;
     *structure = (scree_structure){0};
     scree_status status = handle_find_contacts(s, error);
-    if (!status) status = scree_coordination_measure(&s->stage_model, &s->state, &s->table, &coordination, error);
+    if (!status)
+        status = scree_coordination_measure(&s->stage_model, &s->state, &s->work, &s->table, &coordination, error);
     if (!status) status = scree_solid_fraction(&s->state, &structure->solid_fraction, error);
     if (status) return status;
     structure->contacts = s->table.count;
@@ -102,7 +104,7 @@ scree_status scree_simulation_structure(scree_simulation *s, scree_structure *st
     structure->coordination_without_rattlers = coordination.mean_without_rattlers;
     structure->rattler_fraction = coordination.rattler_fraction;
     measure_fabric(&s->table, structure->fabric);
-    scree_slip_measure(&s->table, &structure->mean_slip, &structure->sliding_fraction);
+    scree_slip_measure(&s->state, &s->table, &structure->mean_slip, &structure->sliding_fraction);
     structure->unbalanced_ratio = scree_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
     return SCREE_OK;
 }

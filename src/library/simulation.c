@@ -163,7 +163,7 @@ scree_status scree_simulation_save(scree_simulation *s, const char *path, scree_
     if (status) return status;
     scree_own_loads_of(&s->state)->registered = (int64_t)s->forces.count;
     scree_hdf5_create(&file, path, error);
-    scree_state_write(&file, GROUP, NULL, &s->state, checksum);
+    scree_state_write(&file, GROUP, NULL, &s->state, NULL, checksum);
     return scree_hdf5_save(&file);
 }
 

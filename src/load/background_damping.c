@@ -265,7 +265,7 @@ const scree_module scree_module_background_damping = {
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
     .work = work,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .told = told,
     .spreads = true,
 };

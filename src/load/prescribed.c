@@ -5,6 +5,7 @@
 #include "base/checksum.h"
 #include "base/fixed.h"
 #include "base/wide_sum.h"
+#include "comm/comm.h"
 #include "module/key_rows.h"
 
 #include <stdio.h>
@@ -235,14 +236,17 @@ enum { WORK = SCREE_COMPONENTS, BODIES };
 static void sum_forces(const scree_state *state, int64_t load, double sum[SCREE_COMPONENTS])
 {
     const own *all = scree_prescribed_of(state);
-    scree_wide_integer quanta[SCREE_COMPONENTS] = {0};
+    scree_wide_sum part = {{0}};
+    double total[9];
+    scree_wide_integer *quanta = part.value;
     for (size_t row = 0; row < state->count && all->by; row++)
         for (int d = 0; d < SCREE_COMPONENTS; d++) {
             if (all->by[row][d] == load + 1) quanta[d] += all->exerted[row].quanta[d];
             if (d >= 3 && all->by[row][SCREE_LEVER] == load + 1) quanta[d] += all->exerted[row].lever[d - 3];
         }
+    scree_comm_wide_total(state, &part, 1, 1, total);
     for (int d = 0; d < SCREE_COMPONENTS; d++)
-        sum[d] = (double)quanta[d] * (d < 3 ? state->force_quantum : state->torque_quantum);
+        sum[d] = total[d] * (d < 3 ? state->force_quantum : state->torque_quantum);
 }
 
 static scree_status measure(const scree_context *c, size_t index, double *value, scree_error *error)
@@ -256,6 +260,7 @@ static scree_status measure(const scree_context *c, size_t index, double *value,
         for (int d = 0; d < SCREE_COMPONENTS; d++) belongs = belongs || all->owner[row][d] == load + 1;
         bodies += belongs;
     }
+    scree_comm_add(c->state, &bodies, 1);
     value[WORK] = all->work[load];
     value[BODIES] = (double)bodies;
     return SCREE_OK;
@@ -280,7 +285,7 @@ const scree_module scree_module_prescribed = {
     .spreads = true,
     .bound = scree_prescribed_bound,
     .work = work,
-    .columns = SCREE_RESULTS(rows, measure),
+    .columns = SCREE_RESULTS_IN_PARTS(rows, measure),
     .results = SCREE_RESULTS(rows, measure),
     .told = told,
 };

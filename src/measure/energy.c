@@ -186,7 +186,7 @@ static double energy_of_rounding(const scree_model *model, const scree_state *st
                                  double largest, double contact_force)
 {
     const double distance = ROUNDING * DBL_EPSILON * largest, speed = state->tick > 0 ? distance / state->tick : 0;
-    double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
+    double weight = body[MASS] * scree_length(model->gravity), bodies = (double)scree_state_total(state);
     // The force over the energy of a spring is between 2 / d and 2.5 / d.
     const double parting = distance > 0 ? 1 + 2.5 * way_of_plates(state) / distance : 1;
     return distance * (contact_force + weight) + 0.5 * body[MASS] * speed * speed +

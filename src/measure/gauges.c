@@ -6,14 +6,16 @@
 ///     strain = shortening / length when the stage began, compression positive as everywhere                    [1]
 ///
 /// Of the rows of particles at the ends of a lattice that is the strain centre to centre: M's 9 x 20 square specimen is
-/// 38 mm high, not 40 (M 4.20, docs/theory/ddem.md). Lengths of the begin are state; sums go by ids. Cost: two passes
-/// over the bodies a gauge and sample.
+/// 38 mm high, not 40 (M 4.20, docs/theory/ddem.md). Lengths of the begin are state; sums are integers. Cost: two
+/// passes over the bodies a gauge and sample.
 ///
 /// Limits: along a direction in which the cell repeats itself there is no distance between bodies that may leave it.
 #include "measure/gauges.h"
 #include "model/measure_keys.h"
 
+#include "base/integer_sum.h"
 #include "case/check.h"
+#include "comm/comm.h"
 #include "model/model.h"
 #include "module/key_rows.h"
 #include "selection/selection.h"
@@ -157,17 +159,21 @@ static memory *memory_of(const scree_state *state)
 static double mean_of(const scree_context *c, const char *selection, int axis)
 {
     const int64_t index = scree_config_selection_find(c->model->selections, c->model->selection_count, selection);
-    double sum = 0, count = 0;
-    size_t next = 0;
+    scree_integer_sum sum = {0};
+    int64_t count = 0;
     if (!(scree_selections_of(c->state)->resolved >> index & 1)) return NAN;
-    for (uint32_t row; (row = scree_next_by_id(c->state, &next)) != SCREE_NO_ROW;) {
-        scree_vector place;
-        if (!scree_selection_has(c->state, index, row)) continue;
-        scree_body_position(c->state, row, place);
-        sum += place[axis];
-        count++;
+    while (scree_comm_sum_next(c->state, &sum, 1)) {
+        count = 0;
+        for (size_t row = 0; row < c->state->count; row++) {
+            scree_vector place;
+            if (!scree_selection_has(c->state, index, row)) continue;
+            scree_body_position(c->state, row, place);
+            scree_integer_sum_add(&sum, place[axis]);
+            count++;
+        }
     }
-    return sum / count;
+    scree_comm_add(c->state, &count, 1);
+    return scree_integer_sum_total(&sum) / (double)count;
 }
 
 static double length_of(const scree_context *c, const scree_gauge *g)
@@ -246,7 +252,7 @@ const scree_module scree_module_gauges = {
     .fields = fields,
     .field_count = COUNT(fields),
     .begin = begin,
-    .columns = SCREE_RESULTS(rows, measure),
+    .columns = SCREE_RESULTS_IN_PARTS(rows, measure),
     .results = SCREE_RESULTS(rows, measure),
     .told = told,
 };

@@ -71,6 +71,6 @@ const scree_module scree_module_imposed_gradient = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
-    .columns = SCREE_RESULTS(columns, take_ratio),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, take_ratio),
     .spreads = true,
 };

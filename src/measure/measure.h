@@ -1,6 +1,8 @@
-/// From contacts to continuum: everything here reads a state and a contact table and changes nothing.
-/// Tensors are row-major 3 x 3 (in 2D all but xx = 0, xy = 1, yx = 3, yy = 4 are zero), tension POSITIVE; what a user
-/// sees of loading tests is compression positive and is converted where it is written (run/sample.c).
+/// From contacts to continuum: everything here reads a state and a contact table and changes nothing. Of a part of a
+/// sample (comm/parts.h) all processes call these functions, each with its bodies and its table, and have the numbers
+/// of the whole, to the bit, unless a function says that it takes whole states alone. Tensors are row-major 3 x 3 (in
+/// 2D all but xx = 0, xy = 1, yx = 3, yy = 4 are zero), tension POSITIVE; what a user sees of loading tests is
+/// compression positive and is converted where it is written (run/sample.c).
 #ifndef SCREE_MEASURE_MEASURE_H
 #define SCREE_MEASURE_MEASURE_H
 
@@ -23,10 +25,11 @@ double scree_sample_volume(const scree_model *model, const scree_state *state);
 /// sigma = -(1/V) sum_c f (x) branch, f the force on `first`; volume V [m3] = scree_sample_volume. In
 /// equilibrium equal to the stress that the boundary applies; in motion less by (1/V) sum m a (x) x: see stress.c.
 /// stress [Pa] out 9: row the direction of the force, column that of the branch.
-void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[9]);
+void scree_stress_from_contacts(const scree_state *state, const scree_contact_table *table, double volume,
+                                double stress[9]);
 
 /// Average stress from the boundary alone: wall contacts at their points, pressure at the bodies that carry it. The
-/// exact counterpart of scree_stress_from_contacts. stress [Pa] out 9.
+/// exact counterpart of scree_stress_from_contacts. Of a whole state. stress [Pa] out 9.
 void scree_stress_from_boundary(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                                 double stress[9]);
 
@@ -67,14 +70,15 @@ typedef struct scree_coordination {
     double mean_without_rattlers; ///< the same over bodies that are no rattlers and their contacts with such bodies
     double rattler_fraction;      ///< bodies that cannot be in equilibrium with the contacts they have: coordination.c
 } scree_coordination;
-/// Errors: memory.
-scree_status scree_coordination_measure(const scree_model *model, const scree_state *state,
+/// work: of a part; of a whole state it may be NULL. Errors: memory.
+scree_status scree_coordination_measure(const scree_model *model, const scree_state *state, const scree_work *work,
                                         const scree_contact_table *table, scree_coordination *out,
                                         scree_error *error) SCREE_MUST_USE;
 
 /// Mean |slip| over touching body-body contacts [m/s] (P fig. 2.4), and the fraction of sliding ones; 0 without
 /// contacts.
-void scree_slip_measure(const scree_contact_table *table, double *mean_slip, double *sliding_fraction);
+void scree_slip_measure(const scree_state *state, const scree_contact_table *table, double *mean_slip,
+                        double *sliding_fraction);
 
 /// Mean resultant force on the bodies that touch something, over the mean contact force. NAN without contact forces.
 double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table);

@@ -1,7 +1,8 @@
 /// Solid fraction inside the Delaunay boundary. A disc inside counts whole, a disc on the boundary as the sector of the
 /// interior angle that its two edges leave (exact as long as the disc meets no other edge of the loop), a sphere on the
 /// hull as the interior solid angle of its triangles. Overlaps at contacts are counted twice: a relative error of the
-/// order of (overlap / radius)^1.5. In a periodic cell all bodies count whole. Cost: O(bodies).
+/// order of (overlap / radius)^1.5. In a periodic cell all bodies count whole. Cost: O(bodies). What the boundary cuts
+/// off is summed by the processes that have its bodies, in integers.
 #include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
 
@@ -99,10 +100,16 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
     if (!status) {
         add_solid_angles(state, inward, angle);
         *solid = solid_of_all(state);
-        for (size_t k = 0; k < hull->node_count; k++) {
-            double inside = angle[k] - 4 * M_PI * floor(angle[k] / (4 * M_PI));
-            *solid -= (4 * M_PI - inside) / 3 * pow(scree_body_equivalent_radius(state, state->row_of_id[hull->id[k]]), 3);
-        }
+        scree_integer_sum outside = {0};
+        while (scree_comm_sum_next(state, &outside, 1))
+            for (size_t k = 0; k < hull->node_count; k++) {
+                const uint32_t row = scree_state_row_of(state, hull->id[k]);
+                if (row == SCREE_NO_ROW) continue;
+                const double inside = angle[k] - 4 * M_PI * floor(angle[k] / (4 * M_PI));
+                scree_integer_sum_add(&outside,
+                                      (4 * M_PI - inside) / 3 * pow(scree_body_equivalent_radius(state, row), 3));
+            }
+        *solid -= scree_integer_sum_total(&outside);
     }
     scree_release(&inward);
     scree_release(&angle);
@@ -112,12 +119,17 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
 /// Disc area inside the loop.
 static double solid_in_loop(const scree_state *state)
 {
-    double solid = solid_of_all(state);
-    for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
-        double radius = scree_body_equivalent_radius(state, state->row_of_id[scree_loop_of(state)->id[k]]);
-        solid -= (M_PI - interior_angle(state, k) / 2) * radius * radius;
-    }
-    return solid;
+    const scree_loop *loop = scree_loop_of(state);
+    scree_integer_sum outside = {0};
+    const double all = solid_of_all(state);
+    while (scree_comm_sum_next(state, &outside, 1))
+        for (size_t k = 0; k < loop->count; k++) {
+            const uint32_t row = scree_state_row_of(state, loop->id[k]);
+            if (row == SCREE_NO_ROW) continue;
+            const double radius = scree_body_equivalent_radius(state, row);
+            scree_integer_sum_add(&outside, (M_PI - interior_angle(state, k) / 2) * radius * radius);
+        }
+    return all - scree_integer_sum_total(&outside);
 }
 
 scree_status scree_solid_fraction(const scree_state *state, double *fraction, scree_error *error)

@@ -17,7 +17,10 @@
 /// act, and through the centres of the pressed bodies, where theirs do. So a sample under pressure p on all sides has
 /// sigma = -p exactly (integral of n (x) x over a closed outline = area), and the lateral stress of the boundary is -p
 /// for any shape of the sides. Sources: Christoffersen, Mehrabadi, Nemat-Nasser 1981 (contact stress); Bagi 1996
-/// (boundary). Cost: O(contacts), O(loop).
+/// (boundary). Cost: O(contacts), O(loop). Contacts are those of this process, summed in integers; loop and hull are
+/// the same in all processes.
+#include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "measure/delaunay_boundary.h"
 #include "measure/imposed_gradient.h"
 #include "measure/measure.h"
@@ -45,17 +48,26 @@ static void contact_force(const scree_contact *contact, scree_vector force)
         force[i] = contact->normal_force * contact->normal[i] + contact->tangential_force * contact->tangent[i];
 }
 
-void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[9])
+/// Adds f_i x_j, the components that there are.
+static void add_terms(int dimension, scree_integer_sum sum[9], const scree_vector f, const scree_vector x)
 {
-    double sum[9] = {0};
+    for (int i = 0; i < dimension; i++)
+        for (int j = 0; j < dimension; j++) scree_integer_sum_add(&sum[3 * i + j], f[i] * x[j]);
+}
+
+void scree_stress_from_contacts(const scree_state *state, const scree_contact_table *table, double volume,
+                                double stress[9])
+{
+    scree_integer_sum sum[9] = {0};
     scree_vector force;
-    for (size_t c = 0; c < table->count; c++) {
-        // A membrane's force counts as one on the centre of its grain.
-        if (table->contact[c].membrane) continue;
-        contact_force(&table->contact[c], force);
-        add_product(sum, force, table->contact[c].branch);
-    }
-    for (int i = 0; i < 9; i++) stress[i] = -sum[i] / volume;
+    while (scree_comm_sum_next(state, sum, 9))
+        for (size_t c = 0; c < table->count; c++) {
+            // A membrane's force counts as one on the centre of its grain.
+            if (table->contact[c].membrane) continue;
+            contact_force(&table->contact[c], force);
+            add_terms(state->dimension, sum, force, table->contact[c].branch);
+        }
+    for (int i = 0; i < 9; i++) stress[i] = -scree_integer_sum_total(&sum[i]) / volume;
 }
 
 typedef struct pressure_sum {

@@ -21,6 +21,10 @@ typedef struct scree_results {
     /// The values of all rows, in their order. index: of what they are about, 0 where that is the run. Nothing of what
     /// steers the run is changed. NULL: `conclude` of the module sets them.
     scree_status (*measure)(const scree_context *context, size_t index, double *value, scree_error *error);
+    /// Of columns: all processes can measure them together, each with its part of the bodies and the contacts that it
+    /// evaluates (comm/parts.h), and have the same doubles as one process. Else the whole sample is put together in
+    /// each of them at every row of series.csv of a case that has these columns.
+    bool in_parts;
 } scree_results;
 
 /// Rows of a value and the ends of its confidence interval of 95 %.
@@ -32,7 +36,13 @@ typedef struct scree_results {
 
 #define SCREE_RESULTS(rows, function)                                                                                  \
     {                                                                                                                  \
-        rows, sizeof(rows) / sizeof *(rows), function                                                                  \
+        rows, sizeof(rows) / sizeof *(rows), function, false                                                           \
+    }
+
+/// Of columns that are measured in parts.
+#define SCREE_RESULTS_IN_PARTS(rows, function)                                                                         \
+    {                                                                                                                  \
+        rows, sizeof(rows) / sizeof *(rows), function, true                                                            \
     }
 
 #endif

@@ -6,6 +6,7 @@
 #include "io/result_names.h"
 #include "run/core_columns.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static size_t count_told(const scree_module *module, const scree_config *config)
@@ -90,6 +91,18 @@ scree_status scree_columns_measure(const scree_columns *columns, const scree_con
             status = own->measure(context, index, value, error);
     }
     return status;
+}
+
+bool scree_columns_want_whole(const scree_columns *columns, char *names, size_t size)
+{
+    size_t used = 0;
+    names[0] = 0;
+    for (int m = 0; m < SCREE_MODULE_COUNT && used < size; m++) {
+        if (columns->times[m] == 0 || scree_modules[m]->columns.in_parts) continue;
+        const int more = snprintf(names + used, size - used, "%s%s", used > 0 ? ", " : "", scree_modules[m]->name);
+        used += more > 0 ? (size_t)more : 0;
+    }
+    return used > 0;
 }
 
 bool scree_column_is_known(const char *name, const char **nearest)

@@ -26,6 +26,10 @@ size_t scree_columns_find(const scree_columns *columns, const char *name);
 scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, double *value,
                                    scree_error *error) SCREE_MUST_USE;
 
+/// Names of the modules that have columns in this case and need the whole sample for them, in `names` of `size` bytes;
+/// false: there are none, all measure in parts.
+bool scree_columns_want_whole(const scree_columns *columns, char *names, size_t size);
+
 /// Whether some case has this column; if not, *nearest is the name that is nearest, or NULL.
 bool scree_column_is_known(const char *name, const char **nearest);
 

@@ -4,6 +4,7 @@
 #include "state/plates.h"
 
 #include <math.h>
+#include <string.h>
 
 /// Lowest id whose row is not finite; count when there is none.
 static size_t first_not_finite(const scree_state *state)
@@ -77,26 +78,48 @@ scree_status scree_guard_step(const scree_simulation *s, scree_error *error)
                            ldexp(s->state.force_quantum, 50));
 }
 
+/// Lowest id of a body here whose centre is behind a plate, with its row; UINT32_MAX: there is none.
+static uint32_t first_behind(const scree_state *state, uint32_t *row, bool *below)
+{
+    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
+    uint32_t first = UINT32_MAX;
+    *row = SCREE_NO_ROW;
+    for (uint32_t k = 0; k < state->count && (bottom->active || top->active); k++) {
+        scree_vector place;
+        scree_body_position(state, k, place);
+        const double height = place[state->dimension - 1];
+        const bool under = bottom->active && height < bottom->position, over = top->active && -height < top->position;
+        if (!(under || over) || state->id[k] >= first) continue;
+        first = state->id[k];
+        *row = k;
+        *below = under;
+    }
+    return first;
+}
+
 /// A body that has left the neighbourhood of all others by more than the size of the sample will not come back.
 static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
 {
     const scree_state *state = &s->state;
-    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
-    size_t next = 0;
-    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
-        scree_vector place;
+    uint32_t row;
+    bool below = false;
+    scree_vector place;
+    double lowest = -(double)first_behind(state, &row, &below);
+    scree_comm_maximum(state, &lowest, 1);
+    if (lowest == -(double)UINT32_MAX) return SCREE_OK;
+    // Its process tells the others.
+    double told[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    if (row != SCREE_NO_ROW && lowest == -(double)state->id[row]) {
         scree_body_position(state, row, place);
-        double height = place[state->dimension - 1];
-        bool below = bottom->active && height < bottom->position;
-        bool above = top->active && -height < top->position;
-        if (below || above)
-            return scree_error_set(error, SCREE_ERROR_GUARD,
-                                   "step %llu: the centre of particle %u is behind the %s plate, at (%.4g, %.4g, %.4g) "
-                                   "m: the plate moves too fast or the step is too large",
-                                   (unsigned long long)state->step, state->id[row], below ? "bottom" : "top", place[0],
-                                   place[1], place[2]);
+        memcpy(told, place, sizeof place);
+        told[3] = below;
     }
-    return SCREE_OK;
+    scree_comm_maximum(state, told, 4);
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "step %llu: the centre of particle %.0f is behind the %s plate, at (%.4g, %.4g, %.4g) "
+                           "m: the plate moves too fast or the step is too large",
+                           (unsigned long long)state->step, -lowest, told[3] > 0 ? "bottom" : "top", told[0], told[1],
+                           told[2]);
 }
 
 scree_status scree_guard_sample(const scree_simulation *s, double relative_residual, scree_error *error)

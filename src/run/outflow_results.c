@@ -166,7 +166,7 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
 const scree_module scree_module_outflow = {
     .name = "outflow",
     .meaning = "how fast particles come out of outlets",
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(results, NULL),
     .told = told,
     .conclude = conclude,

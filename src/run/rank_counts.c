@@ -4,6 +4,7 @@
 
 #include "comm/comm.h"
 #include "comm/parts.h"
+#include "comm/ranges.h"
 
 #include <math.h>
 
@@ -62,6 +63,10 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     counts->worst = fmax(parts->worst, counts->imbalance);
     counts->gathers = (double)parts->gathers;
     counts->gathered = (double)sum[place_of(SCREE_TRAFFIC_GATHERS, BYTES)] / processes;
+    counts->files = (double)scree_ranges_files(false);
+    counts->from_parts = (double)scree_ranges_files(true);
+    counts->filed = (double)sum[place_of(SCREE_TRAFFIC_FILES, BYTES)] / processes;
+    counts->in_parts = (double)s->samples_in_parts;
     counts->placed = (double)sum[place_of(SCREE_TRAFFIC_PLACES, BYTES)] / processes;
     counts->stepping = NANOSECOND * (double)sum[STEPPING] / processes;
     for (scree_traffic_purpose p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) {
@@ -74,6 +79,15 @@ double scree_rank_counts_ratio(const scree_rank_counts *counts)
 {
     const double all = counts->bytes[0] + counts->bytes[1] + counts->processes * counts->reduced;
     return counts->needed > 0 ? all / counts->needed : NAN;
+}
+
+static void log_files(const scree_rank_counts *counts, scree_log *log)
+{
+    scree_log_write(log, SCREE_LOG_INFO,
+                    "%.0f snapshots and checkpoints were written by all processes together, %.0f of them from parts; "
+                    "rows sent for them by a process: %.3g MB, %.3g s (at most %.3g s)",
+                    counts->files, counts->from_parts, 1e-6 * counts->filed, counts->wait[SCREE_TRAFFIC_FILES],
+                    counts->longest[SCREE_TRAFFIC_FILES]);
 }
 
 void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
@@ -95,14 +109,18 @@ void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
         1e-6 * counts->gathered, counts->gathers, 1e-6 * counts->placed);
     double rest = counts->stepping;
     for (int p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) rest -= counts->wait[p];
-    scree_log_write(log, SCREE_LOG_INFO,
-                    "time of a process, mean (most): reductions %.3g s (%.3g), messages of steps %.3g s (%.3g), lists "
-                    "%.3g s (%.3g), whole states %.3g s (%.3g), boundaries %.3g s (%.3g); all else %.3g of %.3g s",
-                    counts->wait[SCREE_TRAFFIC_REDUCTIONS], counts->longest[SCREE_TRAFFIC_REDUCTIONS],
-                    counts->wait[SCREE_TRAFFIC_STEPS], counts->longest[SCREE_TRAFFIC_STEPS],
-                    counts->wait[SCREE_TRAFFIC_LISTS], counts->longest[SCREE_TRAFFIC_LISTS],
-                    counts->wait[SCREE_TRAFFIC_GATHERS], counts->longest[SCREE_TRAFFIC_GATHERS],
-                    counts->wait[SCREE_TRAFFIC_PLACES], counts->longest[SCREE_TRAFFIC_PLACES], rest, counts->stepping);
+    scree_log_write(
+        log, SCREE_LOG_INFO,
+        "time of a process, mean (most): reductions %.3g s (%.3g), messages of steps %.3g s (%.3g), lists "
+        "%.3g s (%.3g), whole states %.3g s (%.3g), samples in parts %.3g s (%.3g), boundaries %.3g s (%.3g); "
+        "all else %.3g of %.3g s",
+        counts->wait[SCREE_TRAFFIC_REDUCTIONS], counts->longest[SCREE_TRAFFIC_REDUCTIONS],
+        counts->wait[SCREE_TRAFFIC_STEPS], counts->longest[SCREE_TRAFFIC_STEPS], counts->wait[SCREE_TRAFFIC_LISTS],
+        counts->longest[SCREE_TRAFFIC_LISTS], counts->wait[SCREE_TRAFFIC_GATHERS],
+        counts->longest[SCREE_TRAFFIC_GATHERS], counts->wait[SCREE_TRAFFIC_SAMPLES],
+        counts->longest[SCREE_TRAFFIC_SAMPLES], counts->wait[SCREE_TRAFFIC_PLACES],
+        counts->longest[SCREE_TRAFFIC_PLACES], rest, counts->stepping);
+    log_files(counts, log);
 }
 
 void scree_rank_counts_results(const scree_rank_counts *counts, scree_summary *summary)
@@ -118,4 +136,8 @@ void scree_rank_counts_results(const scree_rank_counts *counts, scree_summary *s
     scree_summary_set_number(summary, "processes_bytes_ratio", scree_rank_counts_ratio(counts));
     scree_summary_set_number(summary, "processes_reductions", counts->reductions);
     scree_summary_set_number(summary, "processes_waiting", wait / counts->stepping);
+    scree_summary_set_integer(summary, "processes_files", (int64_t)counts->files);
+    scree_summary_set_integer(summary, "processes_files_from_parts", (int64_t)counts->from_parts);
+    scree_summary_set_integer(summary, "processes_gathers", (int64_t)counts->gathers);
+    scree_summary_set_integer(summary, "processes_samples_in_parts", (int64_t)counts->in_parts);
 }

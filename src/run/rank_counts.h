@@ -20,6 +20,9 @@ typedef struct scree_rank_counts {
     double imbalance;         ///< bodies of the fullest part over their mean, in the mean of the steps
     double worst;             ///< the same when a list was made, the largest
     double gathers, gathered; ///< bytes that a process has sent for whole states: mean
+    double files, from_parts; ///< snapshots and checkpoints that all have written; those of them from parts
+    double filed;             ///< bytes that a process has sent for them: mean
+    double in_parts;          ///< samples for which there was no whole state
     double placed;            ///< bytes of places of its grains, when boundaries were found anew: mean
     double wait[SCREE_TRAFFIC_PURPOSES];    ///< s in calls for each purpose, mean of the processes
     double longest[SCREE_TRAFFIC_PURPOSES]; ///< s, of the process with most

@@ -5,12 +5,17 @@
 #include "run/ranks.h"
 
 #include "base/checksum.h"
+#include "base/memory.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
+#include "io/folder_lock.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
 
 bool scree_ranks_write(void)
 {
@@ -116,6 +121,28 @@ scree_status scree_ranks_open(uint64_t case_checksum, scree_status status, scree
     return SCREE_OK;
 }
 
+scree_status scree_ranks_check_folder(const char *directory, scree_error *error)
+{
+    enum { LONGEST_TEXT = 512, MOST_TRIES = 20, MOMENT = 100 * 1000 * 1000 };
+    char first[LONGEST_TEXT], own[LONGEST_TEXT] = "";
+    if (scree_comm_size() == 1) return SCREE_OK;
+    scree_folder_lock_text(directory, first, sizeof first);
+    scree_comm_share(first, sizeof first);
+    // What another machine has written may take a moment to be seen.
+    for (int k = 0; k < MOST_TRIES && strcmp(own, first) != 0; k++) {
+        if (k > 0) (void)nanosleep(&(struct timespec){.tv_nsec = MOMENT}, NULL);
+        scree_folder_lock_text(directory, own, sizeof own);
+    }
+    scree_status status = SCREE_OK;
+    if (strcmp(own, first) != 0)
+        status =
+            scree_error_set(error, SCREE_ERROR_INPUT,
+                            "process %d does not see the folder '%s' that process 0 has locked: all processes write "
+                            "into it, so give them one that all machines share",
+                            scree_comm_rank(), directory);
+    return scree_comm_agree(status, error);
+}
+
 double scree_ranks_most(double own)
 {
     scree_comm_maximum(NULL, &own, 1);
@@ -153,15 +180,43 @@ scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
     derive(state);
     if (!status) status = scree_parts_spread(state, &s->work, error);
     derive(state);
+    // Nothing here stays as long as the whole was. Some of what was freed lies between what is still there.
+    scree_neighbours_release(&s->work);
+    scree_contact_scratch_destroy(&s->work);
+    scree_contact_table_destroy(&s->table);
+    scree_memory_trim();
     return status;
 }
 
-scree_status scree_ranks_gather(scree_simulation *s, scree_error *error)
+scree_status scree_ranks_gather(scree_simulation *s, const char *what, scree_error *error)
 {
     if (!s->state.part) return SCREE_OK;
     scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
-    if (!status) status = scree_parts_gather(&s->state, &s->work, error);
+    if (!status) status = scree_parts_gather(&s->state, &s->work, what, error);
     return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+scree_status scree_ranks_gather_contacts(scree_simulation *s, const char *what, scree_error *error)
+{
+    if (!s->state.part) return SCREE_OK;
+    scree_status status = scree_ranks_gather(s, what, error);
+    return status ? status : scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+}
+
+/// Samples, and for whom whole states were put together.
+static void log_gathers(const scree_simulation *s, const scree_parts *parts, scree_log *log)
+{
+    char text[1024] = "";
+    size_t used = 0;
+    for (size_t k = 0; k < parts->reasons && used < sizeof text; k++) {
+        const int more = snprintf(text + used, sizeof text - used, "%s%s (%llu)", k > 0 ? ", " : "",
+                                  parts->reason[k].what, (unsigned long long)parts->reason[k].count);
+        used += more > 0 ? (size_t)more : 0;
+    }
+    scree_log_write(log, SCREE_LOG_INFO,
+                    "samples: %llu taken in parts, %llu of whole states; whole states were put together for: %s",
+                    (unsigned long long)s->samples_in_parts, (unsigned long long)s->samples_of_wholes,
+                    used > 0 ? text : "nothing");
 }
 
 void scree_ranks_log(const scree_simulation *s, scree_log *log)
@@ -176,4 +231,5 @@ void scree_ranks_log(const scree_simulation *s, scree_log *log)
                     scree_comm_size(), (double)parts->ghosts / lists, (double)parts->bytes / messages,
                     (unsigned long long)parts->lists, (unsigned long long)parts->cuts, (unsigned long long)parts->moved,
                     (unsigned long long)parts->gathers, 1e-6 * (double)parts->gathered);
+    log_gathers(s, parts, log);
 }

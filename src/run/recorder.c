@@ -1,6 +1,9 @@
 /// What a run writes. Order after a step: series row, snapshot, checkpoint, so that a checkpoint knows how many rows
 /// and snapshots there are and a restart cuts what came later.
 #include "run/recorder.h"
+
+#include "comm/comm.h"
+#include "comm/ranges.h"
 #include "state/periodic.h"
 
 #include "io/disk.h"
@@ -89,15 +92,30 @@ void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
     recorder->clocked[1] = processor;
 }
 
+/// Those of a part that has no list yet are in it.
+static scree_status save_contacts(scree_simulation *s, scree_error *error)
+{
+    return s->state.part && !s->work.valid ? SCREE_OK : scree_contacts_save(&s->state, &s->work, error);
+}
+
+/// By all processes together, each a range of the rows.
+static scree_status write_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+{
+    scree_ranges ranges;
+    scree_status status = scree_ranges_open(&s->state, &s->work, &ranges, error);
+    if (!status)
+        status = scree_checkpoint_write_ranges(recorder->directory, &s->state, &ranges, recorder->case_checksum, error);
+    scree_ranges_close(&ranges);
+    return status;
+}
+
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_recorder_clock(recorder, s);
-    scree_status status = scree_ranks_gather(s, error);
-    if (!status) status = scree_contacts_save(&s->state, &s->work, error);
+    scree_status status = save_contacts(s, error);
     // A checkpoint counts rows, so they are on the disk before it is.
     if (!status && recorder->writes) status = scree_series_sync(&recorder->series, error);
-    if (!status && recorder->writes)
-        status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
+    if (!status) status = write_checkpoint(recorder, s, error);
     recorder->last_checkpoint = scree_clock();
     recorder->checkpoint_evaluations = s->state.evaluations;
     return status;
@@ -116,10 +134,11 @@ static bool snapshot_due(const scree_simulation *s)
     return done * wanted / s->plan.expected != before * wanted / s->plan.expected;
 }
 
-/// The walls of the case as triangles, planes as far as the bodies reach.
+/// The walls of the case as triangles, planes as far as the bodies reach. Where the state is a part all processes call
+/// it.
 static scree_status picture_walls(const scree_simulation *s, scree_wall_triangles *walls, scree_error *error)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, ends[6];
     for (size_t row = 0; row < s->state.count; row++) {
         scree_vector place;
         scree_body_position(&s->state, row, place);
@@ -128,12 +147,49 @@ static scree_status picture_walls(const scree_simulation *s, scree_wall_triangle
             high[k] = fmax(high[k], place[k] + s->state.row[row].radius);
         }
     }
-    return scree_wall_set_triangles(s->work.wall_set, low, high, walls, error);
+    for (int k = 0; k < 6; k++) ends[k] = k < 3 ? -low[k] : high[k - 3];
+    scree_comm_maximum(&s->state, ends, 6);
+    for (int k = 0; k < 3; k++) low[k] = -ends[k];
+    return scree_wall_set_triangles(s->work.wall_set, low, ends + 3, walls, error);
 }
 
-/// `sound`: the guards have passed the state; else it is only shown.
+/// Whether the Delaunay cells go into the snapshot: process 0 finds them in the whole state.
+static bool wants_cells(const scree_simulation *s, bool sound)
+{
+    return sound && s->model.measure.cells && !scree_cell(&s->state)->directions;
+}
+
+/// The files of a snapshot, by this process alone or, with ranges in `info`, by all of them.
+static scree_status write_picture(scree_recorder *recorder, scree_simulation *s, scree_snapshot_info *info,
+                                  scree_error *error)
+{
+    const scree_model *model = &s->stage_model;
+    scree_cells cells = {0};
+    scree_wall_triangles walls = {0};
+    scree_status status = picture_walls(s, &walls, error);
+    info->walls = &walls;
+    if (!status && wants_cells(s, info->restartable)) {
+        status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
+        // A few bodies, or bodies on a line, have no triangulation and so no cells.
+        if (!status) info->cells = &cells;
+        if (status == SCREE_ERROR_GUARD) status = SCREE_OK;
+    }
+    // What goes on from a snapshot has written it.
+    scree_recorder_clock(recorder, s);
+    s->state.stage.snapshots++;
+    if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, info, error);
+    if (!status && s->model.output.paraview) status = scree_ranks_gather_contacts(s, "ParaView files", error);
+    if (!status && s->model.output.paraview && recorder->writes)
+        status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, info, error);
+    scree_cells_destroy(&cells);
+    scree_wall_triangles_destroy(&walls);
+    return status;
+}
+
+/// `sound`: the guards have passed the state; else it is only shown, by the process that writes.
 static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s, bool sound, scree_error *error)
 {
+    scree_ranges ranges = {0};
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
                                 .axial_strain = scree_loading_strain(s),
@@ -141,30 +197,16 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .stage_name = s->model.stages[s->state.stage.index].name,
                                 .restartable = sound,
                                 .case_checksum = recorder->case_checksum};
-    if (!recorder->writes) {
+    const bool together = sound && !wants_cells(s, sound);
+    scree_status status = sound && !together ? scree_ranks_gather_contacts(s, "cells of snapshots", error) : SCREE_OK;
+    if (!status && sound) status = save_contacts(s, error);
+    if (!status && together) status = scree_ranges_open(&s->state, &s->work, &ranges, error);
+    if (together) info.ranges = &ranges;
+    if (!status && (together || recorder->writes))
+        status = write_picture(recorder, s, &info, error);
+    else
         s->state.stage.snapshots++;
-        return SCREE_OK;
-    }
-    const scree_model *model = &s->stage_model;
-    scree_cells cells = {0};
-    scree_wall_triangles walls = {0};
-    scree_status status = picture_walls(s, &walls, error);
-    info.walls = &walls;
-    if (!status && sound && s->model.measure.cells && !scree_cell(&s->state)->directions) {
-        status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
-        // A few bodies, or bodies on a line, have no triangulation and so no cells.
-        if (!status) info.cells = &cells;
-        if (status == SCREE_ERROR_GUARD) status = SCREE_OK;
-    }
-    // What goes on from a snapshot has written it.
-    scree_recorder_clock(recorder, s);
-    s->state.stage.snapshots++;
-    if (!status && sound) status = scree_contacts_save(&s->state, &s->work, error);
-    if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
-    if (!status && s->model.output.paraview)
-        status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
-    scree_cells_destroy(&cells);
-    scree_wall_triangles_destroy(&walls);
+    scree_ranges_close(&ranges);
     return status;
 }
 

@@ -42,6 +42,16 @@ static int asked_to_stop(const scree_run_options *options, const scree_simulatio
     return s->state.evaluations % STEPS == 0 ? (int)scree_ranks_most(own) : 0;
 }
 
+/// A step that is refused has not begun. All processes write, so one that cannot ends the others.
+static void save_before_refusal(scree_recorder *recorder, scree_simulation *s)
+{
+    scree_error second;
+    if (scree_recorder_checkpoint(recorder, s, &second))
+        scree_ranks_fail(recorder->options, &second);
+    else
+        scree_log_write(&recorder->log, SCREE_LOG_INFO, "checkpoint before the step that is refused");
+}
+
 /// Steps until the case ends, somebody asks to stop, or something fails.
 static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
@@ -60,11 +70,13 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
             break;
         }
         status = scree_simulation_step(s, error);
-        if (status && s->whole && !scree_recorder_checkpoint(recorder, s, &second))
-            scree_log_write(&recorder->log, SCREE_LOG_INFO, "checkpoint before the step that is refused");
+        if (status && s->whole) save_before_refusal(recorder, s);
         if (!status) status = scree_recorder_follow(recorder, s, error);
     }
     recorder->stepping = scree_clock() - begin;
+    // What is left of a run is told of the whole state, by one process.
+    if (status != SCREE_ERROR_IO && scree_ranks_gather(s, "results", &second))
+        scree_ranks_fail(recorder->options, &second);
     // All other reasons are found by all processes, in the same step.
     if (status == SCREE_ERROR_IO && error) scree_ranks_fail(recorder->options, error);
     if (!status || status == SCREE_INTERRUPTED) scree_rank_counts_join(s, recorder->stepping, &recorder->counts);
@@ -202,7 +214,9 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
                            uint64_t checksum, const char *restarted, const scree_notes *notes, scree_error *error)
 {
     scree_recorder recorder;
-    scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted != NULL, error);
+    scree_status status = scree_ranks_check_folder(options->output, error);
+    if (status) return status;
+    status = scree_recorder_open(&recorder, s, options, options->output, restarted != NULL, error);
     status = scree_comm_agree(status, error);
     recorder.case_checksum = checksum;
     if (!status) {

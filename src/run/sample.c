@@ -1,4 +1,5 @@
-/// The columns of series.csv and how each comes from the measures.
+/// The columns of series.csv and how each comes from the measures. Of a part all processes take the sample together,
+/// each with its bodies and the contacts that it evaluates; all have the same row, to the bit that of one process.
 #include "run/sample.h"
 #include "measure/delaunay_boundary.h"
 
@@ -62,7 +63,7 @@ static void sample_stress(const scree_simulation *s, double *value)
     double volume = scree_sample_volume(model, &s->state), plates[9], contacts[9];
     int axial = 4 * (s->state.dimension - 1), shear = s->state.dimension - 1;
     scree_stress_from_plates(model, &s->state, plates);
-    scree_stress_from_contacts(&s->table, volume, contacts);
+    scree_stress_from_contacts(&s->state, &s->table, volume, contacts);
     value[SCREE_SAMPLE_VOLUME] = volume;
     value[SCREE_SAMPLE_AREA] = s->state.dimension == 3 ? volume / scree_sample_height(s) : scree_sample_area(&s->state);
     value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
@@ -79,9 +80,10 @@ static void sample_stress(const scree_simulation *s, double *value)
 static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
 {
     double slip, sliding;
-    scree_slip_measure(&s->table, &slip, &sliding);
+    scree_slip_measure(&s->state, &s->table, &slip, &sliding);
     scree_coordination coordination;
-    scree_status status = scree_coordination_measure(&s->stage_model, &s->state, &s->table, &coordination, error);
+    scree_status status =
+        scree_coordination_measure(&s->stage_model, &s->state, &s->work, &s->table, &coordination, error);
     if (status) return status;
     value[SCREE_SAMPLE_SLIP_RATIO] = slip / s->model.reference_velocity;
     value[SCREE_SAMPLE_SLIDING_FRACTION] = sliding;

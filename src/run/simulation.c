@@ -16,6 +16,7 @@
 #include "shape/wall_set.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -158,10 +159,27 @@ static void leave_stage(scree_simulation *s)
     s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;
 }
 
+/// In parts, unless a column needs the whole.
+static scree_status take_sample(scree_simulation *s, scree_error *error)
+{
+    char names[64] = "", what[80];
+    scree_status status = SCREE_OK;
+    if (s->state.part && scree_columns_want_whole(&s->columns, names, sizeof names)) {
+        (void)snprintf(what, sizeof what, "samples of %s", names);
+        status = scree_ranks_gather(s, what, error);
+    }
+    if (s->state.part)
+        s->samples_in_parts++;
+    else
+        s->samples_of_wholes++;
+    return status ? status : scree_sample_take(s, error);
+}
+
 /// Begins the next stage; a loading stage is sampled at zero strain.
 static scree_status begin_next(scree_simulation *s, scree_error *error)
 {
-    scree_status status = scree_stage_enter(s, false, error);
+    scree_status status = scree_ranks_gather(s, "begins of stages", error);
+    if (!status) status = scree_stage_enter(s, false, error);
     if (status) return status;
     if (!s->stage) return SCREE_OK;
     if (s->stage->instant) {
@@ -170,7 +188,7 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
     }
     if (!s->stage->loading) return SCREE_OK;
     s->sampled = true;
-    return scree_sample_take(s, error);
+    return take_sample(s, error);
 }
 
 /// A step by parts; what stops it is told of the whole state.
@@ -181,7 +199,7 @@ static scree_status take_step(scree_simulation *s, scree_error *error)
     if (status != SCREE_ERROR_GUARD || !s->state.part) return status;
     scree_error second;
     const uint32_t flags = s->work.flags;
-    if (scree_ranks_gather(s, flags ? error : &second)) return flags ? SCREE_ERROR_IO : status;
+    if (scree_ranks_gather(s, "guards", flags ? error : &second)) return flags ? SCREE_ERROR_IO : status;
     return flags ? scree_guard_step(s, error) : status;
 }
 
@@ -197,9 +215,7 @@ scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
     if ((status = take_step(s, error))) return status;
     uint64_t done = s->state.step - s->state.stage.first_step;
     const bool due = done % s->plan.interval == 0 || done == s->plan.expected;
-    if (due) status = scree_ranks_gather(s, error);
-    if (due && !status) status = scree_sample_take(s, error);
-    if (status) return status;
+    if (due && (status = take_sample(s, error))) return status;
     s->sampled = due;
     scree_stability_ask(s, false);
     if (!due) return SCREE_OK;

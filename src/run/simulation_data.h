@@ -32,7 +32,7 @@ struct scree_simulation {
     const scree_integrator *integrator;
     scree_state state;
     scree_work work;
-    scree_contact_table table;       ///< at the last sample
+    scree_contact_table table;       ///< at the last sample; of a sample in parts the contacts of this process
     const scree_stage *stage;        ///< NULL when the case has ended
     const scree_boundary *boundary;  ///< of the present stage
     scree_pass passes[SCREE_PASSES]; ///< of the step of this stage, in their order
@@ -41,14 +41,15 @@ struct scree_simulation {
     size_t bound_count;
     bool moments; ///< a module that is in use reads the moments of contact forces
     scree_stage_plan plan;
-    scree_columns columns; ///< of series.csv
-    double *sample;        ///< the last row of them
-    bool has_sample;       ///< there is a last one
-    bool sampled;          ///< the last step made a sample
-    bool stage_ended;      ///< the last step ended a stage
-    char reason[192];      ///< why it ended
-    char warning[512];     ///< what a check has found, until it has been told; empty: nothing
-    bool whole;            ///< a step that failed has not begun: the state can be gone on from
+    scree_columns columns;                        ///< of series.csv
+    double *sample;                               ///< the last row of them
+    bool has_sample;                              ///< there is a last one
+    uint64_t samples_in_parts, samples_of_wholes; ///< taken since the begin of the process
+    bool sampled;                                 ///< the last step made a sample
+    bool stage_ended;                             ///< the last step ended a stage
+    char reason[192];                             ///< why it ended
+    char warning[512];                            ///< what a check has found, until it has been told; empty: nothing
+    bool whole;                                   ///< a step that failed has not begun: the state can be gone on from
     scree_own_force_list forces;
     scree_contact_point *points; ///< what the library has handed out
     size_t point_capacity;

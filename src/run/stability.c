@@ -95,22 +95,24 @@ static const numbers *own_numbers(const scree_simulation *s)
 
 // ---- when --------------------------------------------------------------------------------------------------------
 
-static bool matters(const scree_simulation *s)
-{
-    if (scree_modules[scree_stage_config(s)->kind]->numbers->still) return false;
-    return s->state.count > 0 && (scree_model_traits(&s->model)->deforms || scree_bonds_standing(&s->state) > 0);
-}
-
-static bool has_changed(uint64_t before, uint64_t now)
-{
-    return fabs((double)now - (double)before) > CHANGE * (double)before;
-}
-
 static uint64_t bonds_standing(const scree_state *state)
 {
     int64_t standing = (int64_t)scree_bonds_standing(state);
     scree_comm_add(state, &standing, 1);
     return (uint64_t)standing;
+}
+
+/// Found by all processes together.
+static bool matters(const scree_simulation *s)
+{
+    if (scree_modules[scree_stage_config(s)->kind]->numbers->still) return false;
+    return scree_state_total(&s->state) > 0 &&
+           (scree_model_traits(&s->model)->deforms || bonds_standing(&s->state) > 0);
+}
+
+static bool has_changed(uint64_t before, uint64_t now)
+{
+    return fabs((double)now - (double)before) > CHANGE * (double)before;
 }
 
 /// Bonds are counted when some have broken, or pairs have come or gone.
@@ -127,7 +129,9 @@ void scree_stability_ask(scree_simulation *s, bool stage_begins)
 {
     memory *all = memory_of(&s->state);
     const bool bonds = bonds_have_changed(&s->state, all);
-    const bool contacts = s->sampled && has_changed(all->contacts, s->table.count);
+    int64_t count = (int64_t)s->table.count;
+    if (s->sampled) scree_comm_add(&s->state, &count, 1);
+    const bool contacts = s->sampled && has_changed(all->contacts, (uint64_t)count);
     if (stage_begins || bonds || contacts) all->asked = 1;
 }
 
@@ -228,10 +232,10 @@ scree_status scree_stability_check(scree_simulation *s, scree_error *error)
 {
     memory *all = memory_of(&s->state);
     checked c = {.step = 0};
+    scree_status status = SCREE_OK;
     if (!all->asked) return SCREE_OK;
-    scree_status status = scree_ranks_gather(s, error);
-    if (status) return status;
     if (matters(s)) {
+        if ((status = scree_ranks_gather(s, "limits of stability", error))) return status;
         const bool told = own_numbers(s)->told && s->state.step == s->state.stage.first_step;
         status = open_check(s, &c, error);
         if (!status && told) status = find_limits(&c, &all->step, &all->softness, error);

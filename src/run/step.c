@@ -160,12 +160,21 @@ void scree_step_compile(scree_simulation *s)
     }
 }
 
+/// The module that has a pass which may want the whole sample.
+static const char *name_of(const scree_pass *pass)
+{
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (size_t k = 0; k < scree_modules[m]->pass_count; k++)
+            if (scree_modules[m]->passes[k].whole == pass->whole) return scree_modules[m]->name;
+    return "a boundary";
+}
+
 /// A pass that wants the whole sample in this step has it.
 static scree_status run_pass(scree_simulation *s, const scree_pass *pass, const scree_context *c, scree_error *error)
 {
     bool whole = false;
     scree_status status = pass->whole && s->state.part ? pass->whole(c, &whole, error) : SCREE_OK;
-    if (!status && whole) status = scree_ranks_gather(s, error);
+    if (!status && whole) status = scree_ranks_gather(s, name_of(pass), error);
     if (!status) status = pass->run(c, error);
     return !status && whole ? scree_ranks_spread(s, error) : status;
 }

@@ -119,7 +119,7 @@ static void sample_stress(const scree_context *c, double *value)
     if (scree_periodic_is_whole(c->state))
         scree_periodic_stress(c->model, c->state, stress);
     else
-        scree_stress_from_contacts(c->table, scree_sample_volume(c->model, c->state), stress);
+        scree_stress_from_contacts(c->state, c->table, scree_sample_volume(c->model, c->state), stress);
     for (int k = 0; k < 3; k++) value[STRESS_XX + k] = k < dimension ? -stress[4 * k] : NAN;
     for (int k = 0; k < last; k++) lateral -= stress[4 * k] / last;
     const double axial = -stress[4 * last];
@@ -146,20 +146,23 @@ static void sample_strain(const scree_context *c, double *value)
     value[STRAIN_SHEAR] = strain[last] + strain[3 * last];
 }
 
-static void add_contact(const scree_state *state, const scree_contact *contact, double tensor[9])
+static void add_contact(const scree_state *state, const scree_contact *contact, scree_integer_sum tensor[9])
 {
     const double volume = scree_body_volume(state, contact->first) + scree_body_volume(state, contact->second);
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) tensor[3 * i + j] += volume * contact->normal[i] * contact->normal[j];
+        for (int j = 0; j < 3; j++)
+            scree_integer_sum_add(&tensor[3 * i + j], volume * contact->normal[i] * contact->normal[j]);
 }
 
 static void sample_fabric(const scree_context *c, double *value)
 {
     const scree_state *state = c->state;
-    double tensor[9] = {0};
-    scree_integer_sum solid = {0}; // rows have another order after a restart
-    for (size_t k = 0; k < c->table->count; k++)
-        if (!scree_contact_is_outer(&c->table->contact[k])) add_contact(state, &c->table->contact[k], tensor);
+    double tensor[9];
+    scree_integer_sum solid = {0}, sum[9] = {0}; // rows have another order after a restart, and in parts
+    while (scree_comm_sum_next(state, sum, 9))
+        for (size_t k = 0; k < c->table->count; k++)
+            if (!scree_contact_is_outer(&c->table->contact[k])) add_contact(state, &c->table->contact[k], sum);
+    for (int k = 0; k < 9; k++) tensor[k] = scree_integer_sum_total(&sum[k]);
     while (scree_comm_sum_next(state, &solid, 1))
         for (size_t row = 0; row < state->count; row++)
             if (scree_body_is_grain(state, row)) scree_integer_sum_add(&solid, scree_body_volume(state, row));
@@ -284,7 +287,7 @@ const scree_module scree_module_stress_path = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .begin = begin,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(results, NULL),
     .conclude = conclude,
 };

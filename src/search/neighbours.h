@@ -18,6 +18,9 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
 /// Forces a rebuild at the next refresh; histories are kept (they must have been saved if `work` is about to go).
 void scree_neighbours_invalidate(scree_work *work);
 
+/// Frees the list and what making it needs, when the bodies have become much fewer. Histories must have been saved.
+void scree_neighbours_release(scree_work *work);
+
 /// Empty work with the default skin of `model`, to be used with `threads` threads. Errors: memory.
 scree_status scree_work_create(scree_work *work, const scree_model *model, int threads,
                                scree_error *error) SCREE_MUST_USE;

@@ -33,6 +33,27 @@ scree_status scree_work_create(scree_work *work, const scree_model *model, int t
     return status;
 }
 
+void scree_neighbours_release(scree_work *work)
+{
+    scree_search *search = work->search;
+    scree_pairs_clear(&work->pairs);
+    work->wall_pairs.count = work->primitive_pairs.count = 0;
+    scree_pair_lists_destroy(work);
+    for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);
+    scree_pair_chunk_destroy(&search->ghosts);
+    scree_release(&search->held.pair);
+    search->held = (scree_held_buffer){0};
+    scree_cell_grid_destroy(&search->grid);
+    scree_release(&search->entry_begin);
+    scree_release(&search->entry);
+    search->entry_begin_capacity = search->entry_capacity = 0;
+    scree_release(&work->ghosts.ghost);
+    work->ghosts = (scree_ghost_list){0};
+    scree_release(&work->relative);
+    work->relative_capacity = 0;
+    search->listed = work->valid = false;
+}
+
 void scree_work_destroy(scree_work *work)
 {
     scree_thread_pool_destroy(&work->pool);

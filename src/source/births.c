@@ -98,7 +98,7 @@ const scree_module scree_module_births = {
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
     .spreads = true,
-    .columns = SCREE_RESULTS(results, tell),
+    .columns = SCREE_RESULTS_IN_PARTS(results, tell),
     .results = SCREE_RESULTS(results, tell),
     .told = told,
 };

@@ -310,6 +310,11 @@ static const void *array_of(const scree_state *state, const scree_field *field)
     return array;
 }
 
+bool scree_field_is_made(const scree_state *state, const scree_field *field)
+{
+    return array_of(state, field) != NULL;
+}
+
 size_t scree_field_rows_count(const scree_state *state, const scree_field *field)
 {
     size_t count = 1;

@@ -49,6 +49,9 @@ enum { SCREE_CHECKSUM_VALUES = 16 };
 size_t scree_remembered_values(const scree_state *state, scree_list list, size_t row,
                                double value[SCREE_CHECKSUM_VALUES]);
 
+/// Whether there is the array of a field of bodies or contacts: the same in all parts of a sample.
+bool scree_field_is_made(const scree_state *state, const scree_field *field);
+
 /// Number of elements that `state` has of what `field` describes.
 size_t scree_field_rows_count(const scree_state *state, const scree_field *field);
 

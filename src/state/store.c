@@ -91,6 +91,50 @@ scree_status scree_store_reserve_bodies(scree_state *state, size_t count, bool e
     return status;
 }
 
+/// From `capacity` elements to those that the `count` ones need; leaves what is no longer.
+static scree_status cut(void *array, size_t *capacity, size_t count, size_t size, scree_error *error)
+{
+    const size_t wanted = count + count / 8 + 16;
+    if (wanted >= *capacity) return SCREE_OK;
+    scree_status status = scree_reallocate(array, *capacity, wanted, size, error);
+    if (!status) *capacity = wanted;
+    return status;
+}
+
+static scree_status cut_contacts(scree_state *state, scree_error *error)
+{
+    const scree_body_array list[] = {{.pointer = &state->last_force, .size = sizeof *state->last_force},
+                                     {.pointer = &state->rolling, .size = sizeof *state->rolling},
+                                     {.pointer = &state->contact_law, .size = sizeof *state->contact_law},
+                                     {.pointer = &state->contact, .size = sizeof *state->contact}};
+    const size_t before = state->contact_capacity;
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < sizeof list / sizeof *list && !status; k++) {
+        size_t capacity = before;
+        if (!*(void **)list[k].pointer) continue;
+        status = cut(list[k].pointer, &capacity, state->contact_count, list[k].size, error);
+        if (!status) state->contact_capacity = capacity;
+    }
+    return status;
+}
+
+scree_status scree_store_shrink(scree_state *state, scree_error *error)
+{
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    const size_t arrays = scree_body_arrays(state, list), before[2] = {state->body_capacity, state->row_capacity};
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < arrays; k++) {
+        size_t capacity = before[list[k].ghosts];
+        status = cut(list[k].pointer, &capacity, state->count, list[k].size, error);
+        if (status) break;
+        if (list[k].ghosts)
+            state->row_capacity = capacity;
+        else
+            state->body_capacity = capacity;
+    }
+    return status ? status : cut_contacts(state, error);
+}
+
 scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error)
 {
     if (count <= state->row_capacity) return SCREE_OK;
@@ -132,4 +176,25 @@ void scree_group_set_count(scree_state *state, const scree_module *module, const
 {
     unsigned char *own = state->own[slot_of(module)];
     memcpy(own + group->count_offset, &rows, sizeof rows);
+}
+
+scree_status scree_group_shrink(scree_state *state, const scree_module *module, const scree_group *group,
+                                scree_error *error)
+{
+    unsigned char *own = state->own[slot_of(module)];
+    size_t count, capacity;
+    memcpy(&count, own + group->count_offset, sizeof count);
+    memcpy(&capacity, own + group->capacity_offset, sizeof capacity);
+    const size_t before = capacity;
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < module->field_count && !status; k++) {
+        const scree_field *field = &module->fields[k];
+        bool again = false; // another field of the same array came before
+        for (size_t j = 0; j < k; j++) again = again || module->fields[j].array_offset == field->array_offset;
+        if (field->group != group || again) continue;
+        capacity = before;
+        status = cut(own + field->array_offset, &capacity, count, field->stride, error);
+        if (!status) memcpy(own + group->capacity_offset, &capacity, sizeof capacity);
+    }
+    return status;
 }

@@ -30,4 +30,10 @@ size_t scree_body_arrays(const scree_state *state, scree_body_array list[SCREE_B
 scree_status scree_store_reserve_bodies(scree_state *state, size_t count, bool exactly,
                                         scree_error *error) SCREE_MUST_USE;
 
+/// The state has lost most of its bodies: arrays of bodies and contacts become as long as what is in them, and an
+/// eighth; those of a group too. Errors: memory; then some are as they were.
+scree_status scree_store_shrink(scree_state *state, scree_error *error) SCREE_MUST_USE;
+scree_status scree_group_shrink(scree_state *state, const scree_module *module, const scree_group *group,
+                                scree_error *error) SCREE_MUST_USE;
+
 #endif

@@ -1,6 +1,8 @@
 /// check_ranks SEED: terms of very different size, dealt out at random among the processes of mpirun (some get none),
-/// give the bits that one process finds in all of them. Prints "ranks N" once; each difference is a line, and status 1.
+/// give the bits that one process finds in all of them; rows that are dealt out in the same way come to those which
+/// write them, in the order of their keys. Prints "ranks N" once; each difference is a line, and status 1.
 #include "comm/comm.h"
+#include "comm/ranges.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,6 +84,31 @@ static void check_others(const double *all, const double *own, size_t count)
     same("a maximum with NaN", values[2], NAN);
 }
 
+/// Of `count` rows with keys that ascend with holes each process has some, in no order, and one that it does not write.
+static void check_route(uint64_t *seed, size_t count)
+{
+    static uint64_t all[TERMS], own[TERMS + 1], range[TERMS];
+    const size_t size = (size_t)scree_comm_size(), ids = 3 * count + 1;
+    scree_route route;
+    size_t mine = 0;
+    for (size_t k = 0; k < count; k++) all[k] = scree_route_key((uint32_t)(3 * (k / 2)), (uint32_t)(7 * k));
+    for (size_t k = count; k-- > 0;)
+        if (next(seed) % size == (size_t)scree_comm_rank()) own[mine++] = all[k];
+    own[mine++] = SCREE_ROUTE_NONE;
+    if (scree_route_open(&route, own, mine, ids, NULL) || scree_route_move(&route, own, range, sizeof *own, NULL)) {
+        printf("no memory for a route\n");
+        failures++;
+        return;
+    }
+    same("the rows of all ranges", (double)route.total, (double)count);
+    same("the begin of a range", (double)route.begin, (double)scree_range_begin(count, scree_comm_rank()));
+    for (size_t k = 0; k < route.rows; k++) same("a row", (double)range[k], (double)all[route.begin + k]);
+    int64_t rows = (int64_t)route.rows;
+    scree_comm_add(NULL, &rows, 1);
+    same("the sum of all ranges", (double)rows, (double)count);
+    scree_route_close(&route);
+}
+
 int main(int argc, char **argv)
 {
     static double all[TERMS], own[TERMS];
@@ -93,6 +120,9 @@ int main(int argc, char **argv)
     if (scree_comm_rank() == 0) printf("ranks %d\n", scree_comm_size());
     check_sums(all, own, count);
     check_others(all, own, count);
+    check_route(&seed, TERMS);
+    check_route(&seed, 3);
+    check_route(&seed, 0);
     // One term that is not finite, of one process, spoils the sum of all.
     if (count > 0 && scree_comm_rank() == 0) own[0] = NAN;
     same("a sum with NaN", scree_comm_sum_of(NULL, own, count), NAN);

@@ -60,11 +60,11 @@ static void load(const char *text, const char *const *overrides, size_t count, c
         }
         scree_strain_measure(&s.state, begin_strain);
         double volume = scree_sample_area(&s.state) * s.model.thickness;
-        scree_stress_from_contacts(&s.table, volume, begin_stress);
+        scree_stress_from_contacts(&s.state, &s.table, volume, begin_stress);
     }
     scree_strain_measure(&s.state, strain);
     check(scree_contact_table_build(&s.model, &s.state, &s.work, &s.table, &error), &error);
-    scree_stress_from_contacts(&s.table, scree_sample_area(&s.state) * s.model.thickness, stress);
+    scree_stress_from_contacts(&s.state, &s.table, scree_sample_area(&s.state) * s.model.thickness, stress);
     for (int i = 0; i < 9; i++) {
         strain[i] -= begin_strain[i];
         stress[i] -= begin_stress[i];

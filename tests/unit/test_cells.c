@@ -222,7 +222,7 @@ static void test_mean_stress_is_that_of_the_contacts(void **unused)
         assert_int_equal(scree_cells_stress(&s.cells, &s.state, &s.table, s.cells.stress, NULL), SCREE_OK);
         double cells[9], contacts[9], volume;
         weighted_sum(&s, s.cells.stress, cells, &volume);
-        scree_stress_from_contacts(&s.table, volume, contacts);
+        scree_stress_from_contacts(&s.state, &s.table, volume, contacts);
         // The noise makes the sizes differ enough that some contacts are no edges.
         assert_true(s.table.count > s.assembly.count);
         assert_true(s.cells.crossing > 0);

@@ -188,7 +188,7 @@ static void it_is_no_part_of_the_assembly(void **unused)
     scree_contact_table table = {0};
     assert_int_equal(scree_contact_table_build(&b.model, state, &b.work, &table, &error), SCREE_OK);
     scree_coordination coordination;
-    assert_int_equal(scree_coordination_measure(&b.model, state, &table, &coordination, &error), SCREE_OK);
+    assert_int_equal(scree_coordination_measure(&b.model, state, NULL, &table, &coordination, &error), SCREE_OK);
     double contacts = 0, slip, sliding, stress[9], other[9];
     size_t outer = 0, inner = 0;
     double inner_slip = 0;
@@ -206,12 +206,12 @@ static void it_is_no_part_of_the_assembly(void **unused)
     assert_true(outer > 5);
     assert_true(fabs(coordination.mean - contacts / (COLUMNS * ROWS)) < 1e-12);
     assert_true(coordination.rattler_fraction >= 0 && coordination.rattler_fraction <= 1);
-    scree_slip_measure(&table, &slip, &sliding);
+    scree_slip_measure(state, &table, &slip, &sliding);
     assert_true(inner > 0 && fabs(slip - inner_slip / (double)inner) <= 1e-12 * slip);
     // The identity of stress.c, membrane included: contacts = boundary - (1/V) sum of resultants times places.
     assert_int_equal(scree_boundary_refresh(&b.model, state, &error), SCREE_OK);
     double centre[2], volume = scree_outline_area(state, centre) * THICKNESS;
-    scree_stress_from_contacts(&table, volume, stress);
+    scree_stress_from_contacts(state, &table, volume, stress);
     scree_stress_from_boundary(&b.model, state, &table, other);
     for (size_t k = 0; k < state->count; k++) {
         if (!scree_body_is_grain(state, k)) continue;

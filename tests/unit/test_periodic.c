@@ -87,7 +87,7 @@ static void table_agrees_with_the_sums(void **unused)
         check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
         double stress[9], virial[9], scale = 0;
         bool ghosts = false;
-        scree_stress_from_contacts(&table, 1, stress);
+        scree_stress_from_contacts(&s.state, &table, 1, stress);
         for (size_t c = 0; c < table.count; c++) {
             ghosts = ghosts || table.contact[c].ghost;
             assert_true(scree_length(table.contact[c].branch) < 2.4e-3);
@@ -251,7 +251,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         for (int step = 0; step < 50; step++) {
             periodic_run(&s, gradient, 1);
             check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
-            scree_stress_from_contacts(&table, -1, now);
+            scree_stress_from_contacts(&s.state, &table, -1, now);
             memset(moved, 0, sizeof moved);
             for (size_t k = 0; k < s.state.count; k++) {
                 scree_vector velocity, spin, middle;

@@ -462,7 +462,7 @@ static void it_is_no_part_of_the_assembly(void **unused)
     scree_coordination coordination;
     assert_int_equal(scree_boundary_refresh(&b.model, state, &error), SCREE_OK);
     scree_pressure_forces(&b.model, state);
-    assert_int_equal(scree_coordination_measure(&b.model, state, &table, &coordination, &error), SCREE_OK);
+    assert_int_equal(scree_coordination_measure(&b.model, state, NULL, &table, &coordination, &error), SCREE_OK);
     double contacts = 0, stress[9], other[9];
     size_t outer = 0;
     for (size_t c = 0; c < table.count; c++) {
@@ -477,7 +477,7 @@ static void it_is_no_part_of_the_assembly(void **unused)
     // The identity of stress.c, membrane included: contacts = boundary - (1/V) sum of resultants times places.
     scree_vector centre;
     double volume = scree_hull_sample_volume(state, centre);
-    scree_stress_from_contacts(&table, volume, stress);
+    scree_stress_from_contacts(state, &table, volume, stress);
     scree_stress_from_boundary(&b.model, state, &table, other);
     for (size_t k = 0; k < state->count; k++) {
         if (!scree_body_is_grain(state, k)) continue;
