@@ -1,7 +1,10 @@
-/// Rows of a part by their ids: all that are here are found, others are not, and the array comes back with the whole.
+/// Rows of a part by their ids: all that are here are found, others are not, and the array comes back with the whole;
+/// arrays of a part are as long as the part.
 #include "testing.h"
 
+#include "base/memory.h"
 #include "state/row_table.h"
+#include "state/store.h"
 
 enum { ALL = 5000, EVERY = 7 };
 
@@ -72,12 +75,38 @@ static void the_array_comes_back(void **unused)
     scree_state_destroy(&state);
 }
 
+/// What is left of most bodies, and of their contacts, takes no more memory than they need.
+static void arrays_become_short(void **unused)
+{
+    scree_state state;
+    size_t before, after;
+    (void)unused;
+    make_part(&state);
+    assert_int_equal(scree_state_reserve_contacts(&state, 3 * ALL, NULL), SCREE_OK);
+    state.contact_count = 40;
+    state.contact[39].first = 12345;
+    scree_allocation_statistics(&before, NULL);
+    assert_int_equal(scree_store_shrink(&state, NULL), SCREE_OK);
+    scree_allocation_statistics(&after, NULL);
+    const size_t room = state.count + state.count / 8 + 16;
+    assert_int_equal(state.body_capacity, room);
+    assert_int_equal(state.row_capacity, room);
+    assert_true(state.contact_capacity < 64);
+    assert_true(5 * after < before + 5 * ALL * sizeof *state.row_of_id);
+    for (size_t row = 0; row < state.count; row++) assert_int_equal(state.id[row] % EVERY, 3);
+    assert_int_equal(state.contact[39].first, 12345);
+    assert_int_equal(scree_store_reserve_bodies(&state, ALL, false, NULL), SCREE_OK);
+    assert_true(state.body_capacity > ALL && state.row_capacity > ALL);
+    scree_state_destroy(&state);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_are_found_by_id),
         cmocka_unit_test(ghosts_are_known_until_it_is_made_anew),
         cmocka_unit_test(the_array_comes_back),
+        cmocka_unit_test(arrays_become_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
