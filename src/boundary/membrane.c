@@ -416,5 +416,5 @@ const scree_module scree_module_membrane = {
     .keeps = keeps,
     .derive = derive,
     .spreads = true,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
 };

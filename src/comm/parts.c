@@ -14,6 +14,7 @@
 #include "comm/pair_sets.h"
 #include "comm/traffic.h"
 #include "state/periodic.h"
+#include "state/row_table.h"
 #include "state/store.h"
 
 #include <math.h>
@@ -95,13 +96,10 @@ static bool out_of_balance(const scree_state *state, scree_parts *parts)
 
 // ---- rows --------------------------------------------------------------------------------------------------------
 
-static void number_rows(scree_state *state)
+static void count_marks(scree_state *state)
 {
     memset(state->marked, 0, sizeof state->marked);
-    for (size_t row = 0; row < state->count; row++) {
-        state->row_of_id[state->id[row]] = (uint32_t)row;
-        state->marked[state->mark[row]]++;
-    }
+    for (size_t row = 0; row < state->count; row++) state->marked[state->mark[row]]++;
 }
 
 /// Element `from` of each array becomes element `to`.
@@ -113,23 +111,17 @@ static void move_element(const scree_body_array *list, size_t arrays, size_t fro
     }
 }
 
-/// Leaves the rows that stay here, in their order.
+/// Leaves the rows that stay here, in their order. Ids have to be given their rows anew.
 static void keep_rows(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
 {
     const int here = scree_comm_rank();
     size_t kept = 0;
-    for (size_t row = 0; row < state->count; row++) {
-        if (to[row] != here) {
-            state->row_of_id[state->id[row]] = SCREE_NO_ROW;
-            continue;
-        }
-        move_element(list, arrays, row, kept++);
-    }
+    for (size_t row = 0; row < state->count; row++)
+        if (to[row] == here) move_element(list, arrays, row, kept++);
     // The sums of a ghost that takes a row are clear.
     for (size_t k = 0; k < arrays; k++)
         memset(*(unsigned char **)list[k].pointer + kept * list[k].size, 0, (state->count - kept) * list[k].size);
     state->count = kept;
-    number_rows(state);
 }
 
 /// Arrays with one element a body: those of the declarations, and what a cell in motion keeps beside the rows.
@@ -270,18 +262,14 @@ static scree_status tell_ghosts(scree_state *state, scree_work *work, int32_t *t
     const size_t first = state->count + work->ghosts.count - work->ghosts.away;
     int32_t *out;
     scree_status status = scree_allocate(&out, parts->sent_count + 1, sizeof *out, error);
+    if (!status) status = scree_row_table_begin(state, work->ghosts.away, error);
     if (status) return status;
     for (size_t k = 0; k < parts->sent_count; k++) out[k] = to[parts->sent[k].parent];
     (void)scree_comm_deliver(out, parts->send, to + first, parts->receive, sizeof *out);
-    for (size_t k = 0; k < work->ghosts.away; k++) state->row_of_id[state->id[first + k]] = (uint32_t)(first + k);
+    for (size_t k = 0; k < work->ghosts.away; k++)
+        scree_state_set_row(state, state->id[first + k], (uint32_t)(first + k));
     scree_release(&out);
     return SCREE_OK;
-}
-
-static void forget_away(scree_state *state, const scree_work *work)
-{
-    const size_t first = state->count + work->ghosts.count - work->ghosts.away;
-    for (size_t k = 0; k < work->ghosts.away; k++) state->row_of_id[state->id[first + k]] = SCREE_NO_ROW;
 }
 
 static scree_status move_pairs(scree_state *state, const scree_pair_set *set, const int32_t *to, scree_error *error)
@@ -326,7 +314,8 @@ static scree_status move_rows(scree_state *state, scree_work *work, const int32_
     if (!status) {
         journey_end(&j, list, arrays, state->count);
         state->count += j.arriving;
-        number_rows(state);
+        count_marks(state);
+        status = scree_row_table_begin(state, 0, error);
     }
     journey_destroy(&j);
     scree_release(&ends);
@@ -347,7 +336,6 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
     choose(state, parts, to);
     status = tell_ghosts(state, work, to, error);
     for (size_t k = 0; k < sets && !status; k++) status = move_pairs(state, &set[k], to, error);
-    forget_away(state, work);
     if (!status) status = move_rows(state, work, to, error);
     forget_ghosts(work);
     // Rows have moved into the places of others.
@@ -377,11 +365,13 @@ scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_erro
             keep_pairs(state, &set[k], to);
         }
         keep_rows(state, list, scree_body_arrays(state, list), to);
+        count_marks(state);
         state->part = true;
         state->changes++;
         forget_ghosts(work);
         work->valid = false;
-        status = scree_store_shrink(state, error);
+        status = scree_row_table_begin(state, 0, error);
+        if (!status) status = scree_store_shrink(state, error);
         for (size_t k = 0; k < sets && !status; k++)
             if (set[k].group) status = scree_group_shrink(state, set[k].owner, set[k].group, error);
     }
@@ -456,7 +446,8 @@ scree_status scree_parts_gather(scree_state *state, scree_work *work, const char
     (void)scree_traffic_for(before);
     if (status) return status;
     state->count = total;
-    number_rows(state);
+    if ((status = scree_row_table_leave(state, error))) return status;
+    count_marks(state);
     state->part = false;
     state->changes++;
     forget_ghosts(work);

@@ -538,7 +538,7 @@ const scree_module scree_module_deformation = {
     .alone = alone,
     .reads_moments = true,
     .work = work,
-    .columns = SCREE_RESULTS(columns, sample),
+    .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(results, summarise),
     .told = told,
 };

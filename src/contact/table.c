@@ -85,11 +85,10 @@ static scree_status tell_motion(const scree_model *model, const scree_state *sta
 /// The body in a row, or that of the ghost in it: a ghost of another process with the motion that this has told.
 static contact_body body_of_row(const scree_model *model, const scree_state *state, const scree_work *work, uint32_t k)
 {
-    const size_t first = scree_ghost_rows_first(state, work);
     const uint32_t parent = scree_parent_row(state, work, k);
     if (parent < state->count || !work->parts->half) return stored_body_at_half_step(model, state, parent);
     contact_body body = contact_body_get(state, parent);
-    set_motion(state, &body, work->parts->half[parent - first]);
+    set_motion(state, &body, work->parts->half[parent - scree_ghost_rows_first(state, work)]);
     return body;
 }
 

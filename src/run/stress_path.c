@@ -154,14 +154,27 @@ static void add_contact(const scree_state *state, const scree_contact *contact, 
             scree_integer_sum_add(&tensor[3 * i + j], volume * contact->normal[i] * contact->normal[j]);
 }
 
+/// No term is larger than two volumes of the largest grain.
+static void bound_terms(const scree_state *state, scree_integer_sum tensor[9])
+{
+    double largest = 0;
+    for (size_t row = 0; row < state->count; row++) largest = fmax(largest, scree_body_volume(state, row));
+    for (int k = 0; k < 9; k++) tensor[k].largest = 2.0625 * largest;
+}
+
 static void sample_fabric(const scree_context *c, double *value)
 {
     const scree_state *state = c->state;
     double tensor[9];
     scree_integer_sum solid = {0}, sum[9] = {0}; // rows have another order after a restart, and in parts
-    while (scree_comm_sum_next(state, sum, 9))
+    while (scree_comm_sum_next(state, sum, 9)) {
+        if (sum[0].pass == SCREE_INTEGER_SUM_LOOKS) {
+            bound_terms(state, sum);
+            continue;
+        }
         for (size_t k = 0; k < c->table->count; k++)
             if (!scree_contact_is_outer(&c->table->contact[k])) add_contact(state, &c->table->contact[k], sum);
+    }
     for (int k = 0; k < 9; k++) tensor[k] = scree_integer_sum_total(&sum[k]);
     while (scree_comm_sum_next(state, &solid, 1))
         for (size_t row = 0; row < state->count; row++)

@@ -1,4 +1,5 @@
 /// Life and order of the state.
+#include "state/row_table.h"
 #include "state/store.h"
 
 #include <stddef.h>
@@ -62,6 +63,7 @@ scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_err
 
 void scree_state_destroy(scree_state *state)
 {
+    scree_row_table_end(state);
     void *const others[] = {&state->row_of_id, &state->contact, &state->last_force, &state->rolling,
                             &state->contact_law};
     scree_body_array list[SCREE_BODY_ARRAYS];
@@ -265,7 +267,7 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     for (size_t k = 0; k < arrays; k++)
         permute_array(*(void **)list[k].pointer, list[k].size, order, state->count, scratch);
     scree_release(&scratch);
-    for (size_t row = 0; row < state->count; row++) state->row_of_id[state->id[row]] = (uint32_t)row;
+    for (size_t row = 0; row < state->count; row++) scree_state_set_row(state, state->id[row], (uint32_t)row);
     return SCREE_OK;
 }
 

@@ -193,7 +193,7 @@ struct scree_state {
     bool part;                  ///< the others of `total` bodies are with other processes (comm/parts.h) (derived)
     size_t count;               ///< bodies that are here
     size_t next_id;             ///< ids that were ever given: 0 .. next_id - 1
-    size_t id_count;            ///< of row_of_id: ids from it on are of no body that is here (derived)
+    size_t id_count;            ///< ids from it on are of no body that is here (derived)
     size_t marked[SCREE_MARKS]; ///< bodies with each mark (derived)
     uint64_t changes;           ///< appends and removals in this process: lists of rows made before are void (derived)
     size_t total;               ///< of a part: bodies of all processes (derived)
@@ -226,7 +226,8 @@ struct scree_state {
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
-    uint32_t *row_of_id;            ///< id_count (derived); SCREE_NO_ROW: taken out
+    uint32_t *row_of_id;            ///< id_count (derived); SCREE_NO_ROW: taken out; NULL in a part
+    struct scree_row_table *rows;   ///< of a part, in its place (state/row_table.h, derived); else NULL
     scree_predicted *predicted;     ///< derived, sorted with rows; NULL unless the law looks ahead
     scree_predicted *lead; ///< what velocities and spins at n are more than those of the rows, for dashpots and
                            ///< forces from outside; NULL: the scheme does not know them (integrate/gear.c)
@@ -260,9 +261,13 @@ scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_er
 /// Not the row of a body.
 #define SCREE_NO_ROW UINT32_MAX
 
-/// Row of the body with this id; SCREE_NO_ROW when there is none, or none any more.
+/// The same of a part.
+uint32_t scree_row_table_find(const struct scree_row_table *table, size_t id);
+
+/// Row of the body with this id; SCREE_NO_ROW when there is none here, or none any more.
 static inline uint32_t scree_state_row_of(const scree_state *state, size_t id)
 {
+    if (state->rows) return scree_row_table_find(state->rows, id);
     return id < state->id_count ? state->row_of_id[id] : SCREE_NO_ROW;
 }
 
@@ -271,7 +276,7 @@ static inline uint32_t scree_state_row_of(const scree_state *state, size_t id)
 static inline uint32_t scree_next_by_id(const scree_state *state, size_t *id)
 {
     while (*id < state->id_count) {
-        uint32_t row = state->row_of_id[(*id)++];
+        const uint32_t row = scree_state_row_of(state, (*id)++);
         if (row != SCREE_NO_ROW) return row;
     }
     return SCREE_NO_ROW;

@@ -457,6 +457,9 @@ stages:
   - {stage: rotate_particle, boundary: minimal, spin: 10 rad/s, rest_time: 2 ms, hold_time: 2 ms}
 $rest
 EOF
+# Who asked for whole states, as log.txt has it; samples taken in parts.
+wholes() { grep -o 'whole states were put together for: .*' "$1/log.txt"; }
+in_parts() { "$scree" get "$1" processes_samples_in_parts; }
 on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
 checksum() { "$scree" get "$1" state_checksum; }
 for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun; do
@@ -468,6 +471,12 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
             cmp -s "many/$(basename "$table")" "$table" || complain "$(basename "$table") of $name on $ranks processes differs"
         done
         grep -q "process 0 of $ranks: " many/log.txt || complain "$ranks processes did not compute $name together"
+        # All samples but the first of a stage are taken in parts, unless there is a pile.
+        case $name in
+        pour | rain | heap | rounded | nap) wholes many | grep -q 'samples of pile ([1-9]' || complain "$name: who asked for whole states is not told: $(wholes many)" ;;
+        *) [ "$(in_parts many)" -ge 20 ] || complain "$name: $(in_parts many) samples were taken in parts"
+           wholes many | grep -q 'samples of' && complain "$name: whole states for samples: $(wholes many)" ;;
+        esac
     done
     expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
     same "$(checksum many)" "$(checksum one-$name)" "$name in parts at random"
@@ -478,6 +487,13 @@ done
 expect 0 '|warning' on 6 shear.yaml -o few -f --set particles.count=16 --threads 1
 expect 0 '|warning' "$scree" run shear.yaml -o few-one --set particles.count=16 --threads 1 --quiet
 same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
+
+# --- a column that looks at the whole is named
+expect 0 '|warning' "$scree" run drum.yaml -o look-one --set measure.mean_strain=yes --threads 1 --quiet
+expect 0 '|warning' on 3 drum.yaml -o look --set measure.mean_strain=yes --threads 1
+cmp -s look/series.csv look-one/series.csv || complain "series.csv of drum with mean strains differs"
+wholes look | grep -q 'samples of mean_strain ([1-9]' || complain "who asked: $(wholes look)"
+same "$(in_parts look)" 0 'samples in parts with mean strains'
 
 # --- what cannot be spread
 refused() { expect 2 "$1.*cannot be spread over several processes yet" on 2 "${@:2}"; same "$(grep -c 'cannot be spread' <<<"$output")" 1 "one message: $output"; [ -e no ] && complain "a refused run has made its folder"; }
