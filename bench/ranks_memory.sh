@@ -28,7 +28,7 @@ stages:
 measure: {samples: 20, cells: no}
 output: {snapshots: 2, figures: no}
 CASE
-rows() { wc -l <out/series.csv 2>/dev/null || echo 0; }
+rows() { if [ -e out/series.csv ]; then wc -l <out/series.csv; else echo 0; fi; }
 # Resident memory of the process `$1` and those that it has started, MB, one a line.
 memory() {
     local pid
