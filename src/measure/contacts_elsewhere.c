@@ -2,10 +2,10 @@
 /// Cost: 32 bytes a contact across the border of two parts, then a byte for each flag.
 #include "measure/contacts_elsewhere.h"
 
-/// The ends of a contact that are ghosts of other processes.
+/// The ends of a contact that are ghosts of other processes; of one from outside of the assembly the first alone.
 static bool is_away(const scree_state *state, const scree_contact *contact, int end)
 {
-    if (end == 1 && contact->wall) return false;
+    if (end == 1 && scree_contact_is_outer(contact)) return false;
     return (end == 0 ? contact->first : contact->second) >= state->count;
 }
 
@@ -27,7 +27,7 @@ static void write_notes(const scree_state *state, const scree_contact_table *tab
         for (int end = 0; end < 2; end++) {
             if (!is_away(state, contact, end)) continue;
             about[k] = end == 0 ? contact->first : contact->second;
-            other[k] = end == 0 ? contact->second : contact->first;
+            other[k] = scree_contact_is_outer(contact) ? UINT32_MAX : end == 0 ? contact->second : contact->first;
             note[k].id = end == 0 ? scree_contact_second_id(state, contact) : state->id[contact->first];
             for (int i = 0; i < 3; i++) note[k].normal[i] = (end == 0 ? 1 : -1) * contact->normal[i];
             k++;
@@ -69,7 +69,7 @@ scree_status scree_contacts_elsewhere_tell(const scree_state *state, const scree
     if (status) return status;
     for (size_t k = 0; k < shown; k++) out[k] = flag[scree_ghost_rows_body(work, k)];
     scree_ghost_rows_tell(state, work, out, flag + scree_ghost_rows_first(state, work), sizeof *out);
-    for (size_t k = 0; k < leaving; k++) out[k] = flag[elsewhere->other[k]];
+    for (size_t k = 0; k < leaving; k++) out[k] = elsewhere->other[k] == UINT32_MAX ? 0 : flag[elsewhere->other[k]];
     status = scree_ghost_notes_send(&elsewhere->notes, out, flag + elsewhere->rows, sizeof *out, error);
     scree_release(&out);
     return status;

@@ -15,7 +15,8 @@ typedef struct scree_contact_elsewhere {
 typedef struct scree_contacts_elsewhere {
     scree_ghost_notes notes; ///< `arriving` contacts, of the bodies in notes.row
     scree_contact_elsewhere *contact;
-    uint32_t *other;    ///< of those that this process evaluates for others: row of the body that is not theirs
+    uint32_t *other;    ///< of those that this process evaluates for others: row of the body that is not theirs;
+                        ///< UINT32_MAX: a wall or of a membrane, whose flag is 0
     size_t rows, flags; ///< of bodies and ghosts; the elements of an array of flags
 } scree_contacts_elsewhere;
 
