@@ -151,6 +151,7 @@ static void no_member_of_the_state_is_missing(void **unused)
     memset(covered, 1, offsetof(scree_state, count)); // the dimension is of the case, `part` of comm/parts.c
     EXCEPT(count);                                    // lengths and the inverse of `id` follow from the arrays
     EXCEPT(row_of_id);
+    EXCEPT(rows);
     EXCEPT(contact_count);
     EXCEPT(contact_capacity);
     EXCEPT(marked); // counts of `mark`
