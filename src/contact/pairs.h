@@ -55,6 +55,8 @@ SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
     LANE_LOOP g.pair[k] = p + (size_t)k;
     find_bodies(job, &g);
     bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
+    // A little more: whether they do is seen later, from sums that do not depend on which is the first.
+    if (law_deforms(v) || law_necks(v)) first.radius += 0x1p-40 * first.radius;
     if (law_deforms(v)) first.radius += load_reach(dimension, job, &g);
     if (law_necks(v)) first.radius += lanes_all(job->settings.number[SCREE_LAW_REACH]);
     return lanes_ones(geometry_touches(v, &first, &second));
