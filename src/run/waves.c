@@ -399,7 +399,7 @@ const scree_module scree_module_waves = {
     .pass_count = COUNT(passes),
     .in_use = in_use,
     .spreads = true,
-    .results = {scree_wave_rows, SCREE_WAVE_ROWS, NULL},
+    .results = {.row = scree_wave_rows, .count = SCREE_WAVE_ROWS},
     .told = told,
     .conclude = scree_waves_conclude,
 };
