@@ -118,6 +118,6 @@ const scree_module scree_module_increments = {
     .rules = rules,
     .numbers_size = sizeof(numbers),
     .resolve = resolve,
-    .results = {scree_increment_rows, SCREE_INCREMENT_ROWS, NULL},
+    .results = {.row = scree_increment_rows, .count = SCREE_INCREMENT_ROWS},
     .conclude = conclude,
 };
