@@ -105,7 +105,8 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
 
 // ---- in all processes --------------------------------------------------------------------------------------------
 
-void scree_boundary_take(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count)
+/// Fills in those that are here.
+static void take(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         scree_vector spin;
@@ -119,8 +120,8 @@ void scree_boundary_take(const scree_state *state, const uint32_t *id, scree_bou
 
 void scree_boundary_tell(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count)
 {
-    if (!state->part || count == 0) return;
-    scree_boundary_take(state, id, body, count);
+    if (scree_comm_size() == 1 || count == 0) return;
+    take(state, id, body, count);
     scree_parts_tell(state, id, count, (double *)body, sizeof *body / sizeof(double));
 }
 
@@ -129,9 +130,9 @@ static void derive(scree_state *state)
 {
     const scree_loop *loop = scree_loop_of(state);
     const scree_hull *hull = scree_hull_of(state);
-    if (state->part || scree_comm_size() == 1) return;
-    scree_boundary_take(state, loop->id, loop->body, loop->count);
-    scree_boundary_take(state, hull->id, hull->body, hull->node_count);
+    if (state->part) return;
+    scree_boundary_tell(state, loop->id, loop->body, loop->count);
+    scree_boundary_tell(state, hull->id, hull->body, hull->node_count);
 }
 
 /// Once a step: velocities are the same until the second half, positions until the next first one.

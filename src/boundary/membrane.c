@@ -33,7 +33,6 @@
 #include "boundary/axial_plates.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
-#include "comm/comm.h"
 #include "comm/parts.h"
 #include "module/key_rows.h"
 #include "state/pressure.h"
@@ -117,8 +116,7 @@ double scree_membrane_energy(const scree_model *model, const scree_state *state)
 
 static void add_force(scree_state *state, size_t k, const int64_t force[3])
 {
-    scree_membrane_add(state, k, force);
-    for (int i = 0; i < 3; i++) scree_membrane_of(state)->force[k][i] += (double)force[i] * state->force_quantum;
+    scree_membrane_add(state, k, force, scree_membrane_of(state)->force);
 }
 
 static void add_springs(const scree_model *model, scree_state *state)
@@ -344,9 +342,9 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 static void derive(scree_state *state)
 {
     const scree_membrane *m = scree_membrane_of(state);
-    if (state->part || scree_comm_size() == 1) return;
+    if (state->part) return;
     for (size_t k = 0; k < m->count; k++) m->id[k] = (uint32_t)(m->first_id + k);
-    scree_boundary_take(state, m->id, m->body, m->count);
+    scree_boundary_tell(state, m->id, m->body, m->count);
 }
 
 /// Springs hold its bodies together.

@@ -92,10 +92,11 @@ static inline void scree_membrane_velocity(const scree_state *state, size_t k, s
     scree_boundary_velocity(state, (uint32_t)(membrane->first_id + k), &membrane->body[k], velocity);
 }
 
-/// A force in quanta on the k-th body, where it is.
-static inline void scree_membrane_add(scree_state *state, size_t k, const int64_t force[3])
+/// A force in quanta on the k-th body, where it is, and on its element of membrane.press or .force.
+static inline void scree_membrane_add(scree_state *state, size_t k, const int64_t force[3], scree_vector *kept)
 {
     const uint32_t row = scree_membrane_row(state, k);
+    for (int i = 0; i < 3; i++) kept[k][i] += (double)force[i] * state->force_quantum;
     if (row == SCREE_NO_ROW) return;
     scree_wrapping_add(&state->sum[row].fx, force[0]);
     scree_wrapping_add(&state->sum[row].fy, force[1]);

@@ -25,8 +25,7 @@
 
 static void add_press(scree_state *state, size_t k, const int64_t force[3])
 {
-    scree_membrane_add(state, k, force);
-    for (int i = 0; i < 3; i++) scree_membrane_of(state)->press[k][i] += (double)force[i] * state->force_quantum;
+    scree_membrane_add(state, k, force, scree_membrane_of(state)->press);
 }
 
 // ---- 2D ----------------------------------------------------------------------------------------------------------

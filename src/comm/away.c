@@ -84,16 +84,23 @@ scree_status scree_parts_offer(scree_work *work, int process, const scree_ghost 
     return SCREE_OK;
 }
 
+size_t scree_parts_begins(const size_t *counts, size_t *begin)
+{
+    size_t sum = 0;
+    for (int r = 0; r < scree_comm_size(); sum += counts[r++]) begin[r] = sum;
+    return sum;
+}
+
 /// Puts the ghosts that were offered into the order of their processes.
 static scree_status sort_sent(scree_parts *parts, scree_error *error)
 {
     scree_ghost *sorted;
-    size_t begin[SCREE_PROCESSES], sum = 0;
+    size_t begin[SCREE_PROCESSES];
     scree_status status = scree_allocate(&sorted, parts->sent_count + 1, sizeof *sorted, error);
     if (status) return status;
     memset(parts->send, 0, (size_t)scree_comm_size() * sizeof *parts->send);
     for (size_t k = 0; k < parts->sent_count; k++) parts->send[parts->sent_to[k]]++;
-    for (int r = 0; r < scree_comm_size(); sum += parts->send[r++]) begin[r] = sum;
+    (void)scree_parts_begins(parts->send, begin);
     for (size_t k = 0; k < parts->sent_count; k++) sorted[begin[parts->sent_to[k]]++] = parts->sent[k];
     scree_release(&parts->sent);
     parts->sent = sorted;

@@ -37,13 +37,6 @@ void scree_ghost_rows_tell(const scree_state *state, const scree_work *work, con
     (void)scree_traffic_for(before);
 }
 
-/// Sums of `counts` up to each process.
-static void find_begins(const size_t *counts, size_t begin[SCREE_PROCESSES])
-{
-    size_t sum = 0;
-    for (int r = 0; r < scree_comm_size(); sum += counts[r++]) begin[r] = sum;
-}
-
 /// The process whose ghosts number `k` belongs to.
 static int process_of(const size_t begin[SCREE_PROCESSES], size_t k)
 {
@@ -67,9 +60,9 @@ static scree_status sort_notes(const scree_state *state, const scree_work *work,
     int32_t *to;
     scree_status status = scree_allocate(&to, count + 1, sizeof *to, error);
     if (status) return status;
-    find_begins(work->parts->receive, begin);
+    (void)scree_parts_begins(work->parts->receive, begin);
     for (size_t k = 0; k < count; k++) notes->send[to[k] = process_of(begin, about[k] - first)]++;
-    find_begins(notes->send, next);
+    (void)scree_parts_begins(notes->send, next);
     for (size_t k = 0; k < count; k++) {
         const size_t at = next[to[k]]++;
         notes->note[at] = (uint32_t)k;
@@ -83,7 +76,7 @@ static scree_status sort_notes(const scree_state *state, const scree_work *work,
 static void find_rows(const scree_parts *parts, scree_ghost_notes *notes)
 {
     size_t begin[SCREE_PROCESSES], k = 0;
-    find_begins(parts->send, begin);
+    (void)scree_parts_begins(parts->send, begin);
     for (int r = 0; r < scree_comm_size(); r++)
         for (size_t end = k + notes->receive[r]; k < end; k++)
             notes->row[k] = parts->sent[begin[r] + notes->row[k]].parent;

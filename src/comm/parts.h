@@ -77,6 +77,9 @@ size_t scree_parts_trade(const size_t *send, size_t *receive);
 /// counts[r]: how many elements process r has, which says `mine`. Returns their sum. All processes call it.
 size_t scree_parts_count(size_t mine, size_t *counts);
 
+/// begin[r]: what the processes before r count together. Returns the sum of all.
+size_t scree_parts_begins(const size_t *counts, size_t *begin);
+
 /// `count` elements of `size` bytes in an array of its own, *list: where the state is a part those of all processes
 /// take their place, by the numbers of processes. Errors: memory. All processes call it.
 scree_status scree_parts_collect(const scree_state *state, void *list, size_t *count, size_t size,

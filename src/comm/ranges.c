@@ -53,14 +53,10 @@ void scree_route_close(scree_route *route)
 /// Element k goes to process to[k], or nowhere (negative). Returns how many come.
 static size_t address(scree_route *route, const int32_t *to, size_t count)
 {
-    size_t end[SCREE_PROCESSES], sum = 0;
+    size_t end[SCREE_PROCESSES];
     for (size_t k = 0; k < count; k++)
         if (to[k] >= 0) route->send[to[k]]++;
-    for (int r = 0; r < scree_comm_size(); r++) {
-        end[r] = sum;
-        sum += route->send[r];
-    }
-    route->leaving = sum;
+    route->leaving = scree_parts_begins(route->send, end);
     for (size_t k = 0; k < count; k++)
         if (to[k] >= 0) route->index[end[to[k]]++] = (uint32_t)k;
     return scree_parts_trade(route->send, route->receive);

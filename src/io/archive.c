@@ -6,7 +6,6 @@
 /// Cost: linear in the snapshot, which has to fit into memory twice.
 #include "io/archive.h"
 
-#include "base/file_bytes.h"
 #include "base/memory.h"
 #include "io/disk.h"
 #include "io/file_names.h"
@@ -141,18 +140,11 @@ static scree_status archive_file(const char *directory, const char *target, cons
 /// The case and the results, as they are; only piles have an outline.
 static scree_status copy_text(const char *directory, const char *target, const char *name, scree_error *error)
 {
-    char from[PATH_MAX], to[PATH_MAX], *bytes = NULL;
-    size_t length = 0;
-    FILE *file = NULL;
+    char from[PATH_MAX], to[PATH_MAX];
     scree_status status = scree_path_join(from, sizeof from, directory, name, error);
     if (!status) status = scree_path_join(to, sizeof to, target, name, error);
     if (!status && access(from, F_OK) != 0 && errno == ENOENT) return SCREE_OK;
-    if (!status) status = scree_file_load(from, &bytes, &length, error);
-    if (!status) status = scree_replace_begin(to, &file, error);
-    if (file) (void)fwrite(bytes, 1, length, file);
-    if (file) status = scree_replace_finish(to, file, true, error);
-    scree_release(&bytes);
-    return status;
+    return status ? status : scree_file_copy(from, to, error);
 }
 
 scree_status scree_run_archive(const char *directory, const char *target, const int64_t *index, size_t count,

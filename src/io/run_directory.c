@@ -301,3 +301,17 @@ scree_status scree_replace_finish(const char *path, FILE *file, bool keep, scree
 {
     return scree_replacement_close(path, file, keep, error);
 }
+
+scree_status scree_file_copy(const char *from, const char *to, scree_error *error)
+{
+    char block[65536];
+    size_t count;
+    FILE *file, *source = fopen(from, "rbe");
+    if (!source) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", from);
+    scree_status status = scree_replace_begin(to, &file, error);
+    while (!status && (count = fread(block, 1, sizeof block, source)) > 0)
+        if (fwrite(block, 1, count, file) != count) break; // finish says why
+    const bool whole = !ferror(source);
+    (void)fclose(source);
+    return status ? status : scree_replace_finish(to, file, whole, error);
+}

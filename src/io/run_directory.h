@@ -32,4 +32,7 @@ bool scree_folders_are_same(const char *one, const char *other);
 scree_status scree_replace_begin(const char *path, FILE **file, scree_error *error) SCREE_MUST_USE;
 scree_status scree_replace_finish(const char *path, FILE *file, bool keep, scree_error *error) SCREE_MUST_USE;
 
+/// Copies a file, as a whole or not at all. Errors: SCREE_ERROR_IO.
+scree_status scree_file_copy(const char *from, const char *to, scree_error *error) SCREE_MUST_USE;
+
 #endif

@@ -89,10 +89,8 @@ static inline scree_strain *scree_strain_of(const scree_state *state)
     return &scree_delaunay_boundary_of(state)->strain;
 }
 
-/// Fills in those bodies that are here.
-void scree_boundary_take(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count);
-
-/// The bodies of the boundary are told to all processes, where the state is a part; all of them call it.
+/// The bodies of the boundary are told to all processes, where the state is a part; all of them call it. Where it is
+/// whole and will be spread each process fills them in.
 void scree_boundary_tell(const scree_state *state, const uint32_t *id, scree_boundary_body *body, size_t count);
 
 /// Position [m] and velocity [m/s] of a body of the boundary, wherever it is; `body` is its element of loop or hull.

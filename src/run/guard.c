@@ -1,10 +1,10 @@
 /// Guards and their messages: which body, why, and what to try.
 #include "run/guard.h"
 #include "comm/comm.h"
+#include "comm/parts.h"
 #include "state/plates.h"
 
 #include <math.h>
-#include <string.h>
 
 /// Lowest id whose row is not finite; count when there is none.
 static size_t first_not_finite(const scree_state *state)
@@ -78,12 +78,11 @@ scree_status scree_guard_step(const scree_simulation *s, scree_error *error)
                            ldexp(s->state.force_quantum, 50));
 }
 
-/// Lowest id of a body here whose centre is behind a plate, with its row; UINT32_MAX: there is none.
-static uint32_t first_behind(const scree_state *state, uint32_t *row, bool *below)
+/// Lowest id of a body here whose centre is behind a plate, and of which; UINT32_MAX: there is none.
+static uint32_t first_behind(const scree_state *state, bool *below)
 {
     const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
     uint32_t first = UINT32_MAX;
-    *row = SCREE_NO_ROW;
     for (uint32_t k = 0; k < state->count && (bottom->active || top->active); k++) {
         scree_vector place;
         scree_body_position(state, k, place);
@@ -91,7 +90,6 @@ static uint32_t first_behind(const scree_state *state, uint32_t *row, bool *belo
         const bool under = bottom->active && height < bottom->position, over = top->active && -height < top->position;
         if (!(under || over) || state->id[k] >= first) continue;
         first = state->id[k];
-        *row = k;
         *below = under;
     }
     return first;
@@ -101,24 +99,20 @@ static uint32_t first_behind(const scree_state *state, uint32_t *row, bool *belo
 static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
 {
     const scree_state *state = &s->state;
-    uint32_t row;
     bool below = false;
-    scree_vector place;
-    double lowest = -(double)first_behind(state, &row, &below);
+    double lowest = -(double)first_behind(state, &below), told[4] = {0};
     scree_comm_maximum(state, &lowest, 1);
     if (lowest == -(double)UINT32_MAX) return SCREE_OK;
-    // Its process tells the others.
-    double told[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
-    if (row != SCREE_NO_ROW && lowest == -(double)state->id[row]) {
-        scree_body_position(state, row, place);
-        memcpy(told, place, sizeof place);
+    const uint32_t id = (uint32_t)-lowest, row = scree_state_row_of(state, id);
+    if (row != SCREE_NO_ROW) {
+        scree_body_position(state, row, told);
         told[3] = below;
     }
-    scree_comm_maximum(state, told, 4);
+    scree_parts_tell(state, &id, 1, told, 4);
     return scree_error_set(error, SCREE_ERROR_GUARD,
-                           "step %llu: the centre of particle %.0f is behind the %s plate, at (%.4g, %.4g, %.4g) "
+                           "step %llu: the centre of particle %u is behind the %s plate, at (%.4g, %.4g, %.4g) "
                            "m: the plate moves too fast or the step is too large",
-                           (unsigned long long)state->step, -lowest, told[3] > 0 ? "bottom" : "top", told[0], told[1],
+                           (unsigned long long)state->step, id, told[3] > 0 ? "bottom" : "top", told[0], told[1],
                            told[2]);
 }
 

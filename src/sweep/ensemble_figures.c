@@ -9,20 +9,6 @@
 
 static const char *const form_names[] = {"full", "quick", "run"};
 
-static scree_status copy_file(const char *from, const char *to, scree_error *error)
-{
-    char block[65536];
-    size_t count;
-    FILE *file, *source = fopen(from, "rbe");
-    if (!source) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", from);
-    scree_status status = scree_replace_begin(to, &file, error);
-    while (!status && (count = fread(block, 1, sizeof block, source)) > 0)
-        if (fwrite(block, 1, count, file) != count) break; // finish says why
-    const bool whole = !ferror(source);
-    (void)fclose(source);
-    return status ? status : scree_replace_finish(to, file, whole, error);
-}
-
 /// A figure of a point, if it has it.
 static scree_status put_figure(const scree_finding *f, const char *figure, bool usual, const char *folder,
                                const char *link, FILE *page, scree_error *error)
@@ -36,7 +22,7 @@ static scree_status put_figure(const scree_finding *f, const char *figure, bool 
                    usual ? "" : figure);
     status = scree_folders_make(folder, error);
     if (!status) status = scree_path_join(to, sizeof to, folder, file, error);
-    if (!status) status = copy_file(from, to, error);
+    if (!status) status = scree_file_copy(from, to, error);
     if (status) return status;
     (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: ", f->name, point, form_names[f->form], link,
                   file, f->name, point, form_names[f->form]);

@@ -2,14 +2,12 @@
 # Snapshots and checkpoints that several processes write together: they hold what those of one process hold, and any number
 # of processes goes on from them; a process that is killed while they are written leaves a folder to go on from; a full disk
 # and a folder that is not shared end all processes with one message. Skipped without MPI.
+# shellcheck source=tests/cli/processes.sh
+. "$(dirname "$0")/processes.sh"
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
-skip() { echo "skipped: $1"; exit 77; }
+need_processes compare_states
 tools=$(dirname "$scree")/tests
-command -v mpirun >/dev/null || skip 'there is no mpirun'
-for tool in check_ranks compare_states; do [ -x "$tools/$tool" ] || skip "there is no $tools/$tool (a target)"; done
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-mpirun --oversubscribe -n 2 "$tools/check_ranks" 1 2>&1 </dev/null | grep -q '^ranks 2' || skip 'built without MPI (preset mpi)'
 
 # --- bonds that break in a sheared cell, in arrays that are large; polygons with corners and discs that fall and are taken
 # out, so that ids have holes; spheres with rolling memory beside walls
@@ -69,8 +67,6 @@ measure: {samples: 4, cells: no}
 output: {snapshots: 2, figures: no}
 END
 declare -A steps=([bonded]=100 [heap]=900 [roll]=2500)
-on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
-checksum() { "$scree" get "$1" state_checksum; }
 
 # What figures and people read of snapshots, beside the states.
 same_snapshots() {

@@ -2,15 +2,13 @@
 # One run on several processes: the same bits for any number of them, in parts of space and in parts at random; what
 # cannot be spread is refused by name; a process that is killed ends all, and any number goes on from the checkpoint.
 # Skipped without MPI.
+# shellcheck source=tests/cli/processes.sh
+. "$(dirname "$0")/processes.sh"
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
-skip() { echo "skipped: $1"; exit 77; }
+need_processes
 program=$(dirname "$scree")/tests/check_ranks
-command -v mpirun >/dev/null || skip 'there is no mpirun'
-[ -x "$program" ] || skip "there is no $program (target check_ranks)"
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 several() { mpirun --oversubscribe -n "$1" "$program" "$2" 2>&1 </dev/null; }
-[ "$(several 2 1)" = 'ranks 2' ] || { several 2 1 | grep -q '^ranks 1' && skip 'built without MPI (preset mpi)'; }
 for ranks in 1 2 3 4; do
     for seed in 1 2 3; do
         expect 0 "^ranks $ranks\$" several $ranks $seed
@@ -460,8 +458,6 @@ EOF
 # Who asked for whole states, as log.txt has it; samples taken in parts.
 wholes() { grep -o 'whole states were put together for: .*' "$1/log.txt"; }
 in_parts() { "$scree" get "$1" processes_samples_in_parts; }
-on() { mpirun --oversubscribe -n "$1" "$scree" run "${@:2}" --quiet 2>&1 </dev/null; }
-checksum() { "$scree" get "$1" state_checksum; }
 for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do

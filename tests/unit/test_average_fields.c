@@ -234,22 +234,28 @@ static void test_surface_of_polygons(void **state)
     scree_average_sample_destroy(&s);
 }
 
-/// A column of grains under gravity: what the averages of the lowest row say of the force on the floor.
-static void test_plate(void **state)
+/// A column of so many grains under gravity.
+static scree_average_sample stand_column(uint32_t grains)
 {
-    (void)state;
-    enum { N = 40 };
     scree_average_sample s = average_begin(2);
     s.gravity[1] = -10;
-    for (uint32_t k = 0; k < N; k++) {
+    for (uint32_t k = 0; k < grains; k++) {
         const uint32_t grain = average_add(&s, 0, 2.0 * k + 1, 0, 1);
-        const double above = 10 * s.grain[grain].mass * (N - k);
+        const double above = 10 * s.grain[grain].mass * (grains - k);
         if (k == 0)
             average_stand(&s, grain, (double[3]){0, 0, 0}, (double[3]){0, above, 0});
         else
             average_touch(&s, grain, k - 1, (double[3]){0, above, 0});
     }
     average_finish(&s);
+    return s;
+}
+
+/// What the averages of the lowest row say of the force on the floor.
+static void test_plate(void **state)
+{
+    (void)state;
+    scree_average_sample s = stand_column(40);
     double averages, weight;
     scree_average_view view = open_view(&s, &(scree_average_plan){.side = 2});
     near(view.plate, view.weight, 1e-9 * view.weight);
@@ -268,18 +274,7 @@ static void test_plate(void **state)
 static void test_sign_of_equilibrium(void **state)
 {
     (void)state;
-    enum { N = 30 };
-    scree_average_sample s = average_begin(2);
-    s.gravity[1] = -10;
-    for (uint32_t k = 0; k < N; k++) {
-        const uint32_t grain = average_add(&s, 0, 2.0 * k + 1, 0, 1);
-        const double above = 10 * s.grain[grain].mass * (N - k);
-        if (k == 0)
-            average_stand(&s, grain, (double[3]){0, 0, 0}, (double[3]){0, above, 0});
-        else
-            average_touch(&s, grain, k - 1, (double[3]){0, above, 0});
-    }
-    average_finish(&s);
+    scree_average_sample s = stand_column(30);
     scree_average_view view = open_view(&s, &(scree_average_plan){.side = 2});
     double pressure[2], density[2];
     for (int k = 0; k < 2; k++) {
