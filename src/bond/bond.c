@@ -50,9 +50,10 @@ static const scree_field fields[] = {
 size_t scree_bonds_standing(const scree_state *state)
 {
     const scree_persistent_list *list = scree_persistent(state);
-    size_t count = 0;
+    int64_t count = 0;
     for (size_t k = 0; k < list->count; k++) count += list->member[k].constant[SCREE_MEMBER_TENSION] >= 0;
-    return count;
+    scree_comm_add(state, &count, 1);
+    return (size_t)count;
 }
 
 // ---- breaking ----------------------------------------------------------------------------------------------------
@@ -168,9 +169,7 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
 {
     (void)index, (void)error;
     const scree_state *state = c->state;
-    int64_t standing = (int64_t)scree_bonds_standing(state);
-    scree_comm_add(state, &standing, 1);
-    value[0] = (double)standing;
+    value[0] = (double)scree_bonds_standing(state);
     value[1] = (double)broken(state, SCREE_BREAK_TENSION);
     value[2] = (double)broken(state, SCREE_BREAK_SHEAR);
     value[3] = scree_bonds_of(state)->fracture;

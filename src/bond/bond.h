@@ -39,7 +39,7 @@ static inline scree_bonds *scree_bonds_of(const scree_state *state)
     return state->own[SCREE_SLOT_bonds];
 }
 
-/// Bonds that stand.
+/// Bonds that stand, of all processes where the state is a part; all of them call it then.
 size_t scree_bonds_standing(const scree_state *state);
 
 #endif

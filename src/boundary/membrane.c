@@ -387,7 +387,7 @@ static const scree_result columns[] = {
      "volume between the plates inside a membrane, through the centres of its bodies; not a number without one"},
 };
 
-/// A part has no membrane: a case with one is not spread.
+/// Its bodies are told to all processes, which find the same.
 static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
 {
     (void)index, (void)error;

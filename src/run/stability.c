@@ -95,19 +95,12 @@ static const numbers *own_numbers(const scree_simulation *s)
 
 // ---- when --------------------------------------------------------------------------------------------------------
 
-static uint64_t bonds_standing(const scree_state *state)
-{
-    int64_t standing = (int64_t)scree_bonds_standing(state);
-    scree_comm_add(state, &standing, 1);
-    return (uint64_t)standing;
-}
-
 /// Found by all processes together.
 static bool matters(const scree_simulation *s)
 {
     if (scree_modules[scree_stage_config(s)->kind]->numbers->still) return false;
     return scree_state_total(&s->state) > 0 &&
-           (scree_model_traits(&s->model)->deforms || bonds_standing(&s->state) > 0);
+           (scree_model_traits(&s->model)->deforms || scree_bonds_standing(&s->state) > 0);
 }
 
 static bool has_changed(uint64_t before, uint64_t now)
@@ -122,7 +115,7 @@ static bool bonds_have_changed(const scree_state *state, memory *all)
     const uint64_t now = (uint64_t)scree_bonds_of(state)->count << 32 | scree_persistent_total(state);
     if (now == all->looked) return false;
     all->looked = now;
-    return has_changed(all->bonds, bonds_standing(state));
+    return has_changed(all->bonds, scree_bonds_standing(state));
 }
 
 void scree_stability_ask(scree_simulation *s, bool stage_begins)
