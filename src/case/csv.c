@@ -23,7 +23,8 @@ typedef struct table {
     const char *names[MOST_CELLS]; ///< of the columns
     const scree_section *elements; ///< rows are elements of a list with these keys, or lists (NULL)
     const char *const *columns;    ///< what the two columns of pairs are called; NULL: whatever the file says
-    bool swapped;                  ///< the file has the second of these first
+    bool timed;                    ///< rows are a time and the values then
+    size_t first;                  ///< the cell that comes first in a row of the list, where the names say so
     bool begun;                    ///< the names of the columns, or a first row, have been read
 } table;
 
@@ -87,14 +88,16 @@ static bool refuse(const table *t, const char *message)
     return false;
 }
 
-/// The second of a pair becomes the first.
-static void turn_pair(scree_node *row)
+/// The k-th cell becomes the first, the others stay in their order.
+static void move_to_front(scree_node *row, size_t k)
 {
-    scree_node *last = row->first;
-    row->first = row->last;
-    row->last = last;
-    row->first->next = last;
-    last->next = NULL;
+    scree_node *before = row->first;
+    for (; k > 1; k--) before = before->next;
+    scree_node *cell = before->next;
+    before->next = cell->next;
+    if (row->last == cell) row->last = before;
+    cell->next = row->first;
+    row->first = cell;
 }
 
 static bool add_row(table *t, char *const cells[], const size_t columns[], size_t count)
@@ -110,7 +113,7 @@ static bool add_row(table *t, char *const cells[], const size_t columns[], size_
         cell.key_place = cell.place;
         if (!cell.text || !append(t, row, &cell)) return false;
     }
-    if (row && t->swapped && row->count == 2) turn_pair(row);
+    if (row && t->first > 0 && t->first < row->count) move_to_front(row, t->first);
     return row != NULL;
 }
 
@@ -160,8 +163,26 @@ static bool match_pair(table *t, const size_t columns[], size_t count)
         scree_problem_add(t->reader, place, t->path, NULL, NULL,
                           "the column '%s' is missing; expected %s and %s, in any order", missing, t->columns[0],
                           t->columns[1]);
-    t->swapped = count == 2 && which_of_pair(t, t->names[0]) == 1;
+    t->first = count == 2 && which_of_pair(t, t->names[0]) == 1;
     return !missing;
+}
+
+/// The column of times, and whether x, y and z come in this order. False: something is wrong, which has been noted.
+static bool find_time(table *t, size_t count)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < count; k++)
+        if (strcmp(t->names[k], "time") == 0 && found++ == 0) t->first = k;
+    if (found == 0)
+        return refuse(t, "no column is named 'time'; expected 'time [s]' and the values then, in any order");
+    if (found > 1) return refuse(t, "two columns are named 'time'");
+    for (size_t k = 0, component = 0; k < count; k++) {
+        const char *name = t->names[k];
+        const bool axis = strlen(name) == 1 && name[0] >= 'x' && name[0] <= 'z';
+        if (axis && (size_t)(name[0] - 'x') != component) return refuse(t, "x, y and z have to come in this order");
+        component += k != t->first;
+    }
+    return true;
 }
 
 /// A line without its end, which may be changed.
@@ -185,6 +206,7 @@ static bool read_line(table *t, char *line)
     for (size_t k = 0; names && k < count; k++)
         if (!read_name(t, cells[k], k, columns[k])) return false;
     if (names && t->columns && !match_pair(t, columns, count)) return false;
+    if (names && t->timed && !find_time(t, count)) return false;
     return names || add_row(t, cells, columns, count);
 }
 
@@ -229,6 +251,7 @@ bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, 
     table t = {.reader = reader, .path = path, .place = node->place, .list = &list};
     t.elements = key->type == SCREE_KEY_LIST ? key->sections : NULL;
     t.columns = key->columns[0] ? key->columns : NULL;
+    t.timed = key->type == SCREE_KEY_SCHEDULE;
     t.place.source = scree_arena_copy(reader->arena, name, strlen(name));
     t.place.line = 0;
     if (!t.place.source) scree_reader_fail(reader, strlen(name));

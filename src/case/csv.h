@@ -16,7 +16,8 @@ bool scree_csv_is_named(const scree_node *node);
 /// not count. A first row that does not begin with a number names the columns, with units that hold for plain numbers
 /// below: "time [s], velocity [mm/s]". Of a list: rows become elements of a list with these keys, which the
 /// names of the columns, that must be there, are; where a cell is empty the element does not have the key. Of pairs that
-/// have names (`columns`): the first row, if it names the columns, names both, in any order. False: a problem has been noted.
+/// have names (`columns`): the first row, if it names the columns, names both, in any order; of schedules it names one
+/// `time`, anywhere. False: a problem has been noted.
 bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path, const scree_key *key);
 
 #endif

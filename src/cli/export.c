@@ -14,6 +14,9 @@ scree_status scree_verb_export(const scree_command *command)
     const char *directory = command->argument[0], *path = scree_command_value(command, "output");
     const char *archive = scree_command_value(command, "archive");
     if (archive) {
+        const char *other = path ? "--output" : scree_command_value(command, "contacts") ? "--contacts" : NULL;
+        if (other && scree_command_refuse(&error, "--archive", "", "it takes no %s: it is a folder of its own", other))
+            return scree_terminal_error("export", &error);
         if (scree_export_archive(directory, scree_command_value(command, "stage"), archive, &error))
             return scree_terminal_error("export", &error);
         printf("%s: a run in little\n", archive);

@@ -168,8 +168,13 @@ static void read_state(scree_hdf5 *file, const scree_restart_point *point, const
     }
     scree_snapshot_state_group(point->index, inner, sizeof inner);
     if (!file->status &&
-        (H5Lexists(file->file, group, H5P_DEFAULT) <= 0 || H5Lexists(file->file, inner, H5P_DEFAULT) <= 0))
-        scree_hdf5_refuse(file, "snapshot %" PRId64 " has no state to go on from", point->index);
+        (H5Lexists(file->file, group, H5P_DEFAULT) <= 0 || H5Lexists(file->file, inner, H5P_DEFAULT) <= 0)) {
+        // Not damaged, but as good as that: another may serve.
+        file->damaged = true;
+        file->status = scree_error_set(file->error, SCREE_ERROR_IO,
+                                       "snapshot %" PRId64 " was kept without its state (scree export --archive)",
+                                       point->index);
+    }
     scree_state_read(file, inner, group, wanted->dimension, wanted->case_checksum, state);
 }
 

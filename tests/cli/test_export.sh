@@ -49,7 +49,11 @@ cmp -s little/series.csv plane/series.csv || complain "another series"
 same "$("$scree" get little state_checksum)" "$("$scree" get plane state_checksum)" "results of a run in little"
 expect 2 '^scree export: .*prepare' "$scree" export little --stage prepare -o no.dump
 expect 2 "there is no checkpoint in 'little'" "$scree" run --restart little -q
+expect 4 "no snapshot 6 in 'little' can be used: snapshot 6 was kept without its state" "$scree" run --restart little --from 6 -q
+expect 0 'whole  *nothing can go on from it: snapshot 6 was kept without its state' "$scree" check little
 expect 2 "there is a 'little' already: give another name" "$scree" export plane --archive little
+expect 2 "^scree export: --archive: it takes no --output" "$scree" export plane --archive no -o no.dump
+expect 2 "^scree export: --archive: it takes no --contacts" "$scree" export plane --archive no --contacts no.dump
 expect 2 "^scree export: --stage: the run has no snapshot of a stage 'compres' " "$scree" export plane --archive no --stage compres
 [ ! -e no ] || complain "a folder for nothing"
 expect 4 '^scree export: ' "$scree" export none

@@ -198,6 +198,10 @@ static void tables_may_lie_in_files(void **state)
 #define FILE_OF(text, message) with_file(text, sizeof(text) - 1, message)
     FILE_OF("0,0\n1,5e-3\n2,0\n", NULL);
     FILE_OF("# a gate\r\n\r\ntime [ms]; velocity [mm/s]\r\n0; 0\r\n1000; 5 # open\r\n2 s; 0 m/s", NULL);
+    FILE_OF("velocity [mm/s], time [ms]\n0, 0\n5, 1000\n0, 2000\n", NULL);
+    FILE_OF("velocity, t\n0,0\n", ".csv:1:1: speed: no column is named 'time'");
+    FILE_OF("time, time\n0,0\n", ".csv:1:1: speed: two columns are named 'time'");
+    FILE_OF("time, y, x\n0,0,0\n", ".csv:1:1: speed: x, y and z have to come in this order");
     FILE_OF("0,0\n# twice\n1,5\n1,6\n", ".csv:4:1: speed: time must increase");
     FILE_OF("0,0\n1,  x\n", ".csv:2:5: speed");
     FILE_OF("0,0\n1\n", ".csv:2:1: speed: expected a row of 2 values");
