@@ -32,8 +32,21 @@ static void join(uint32_t *parent, uint32_t one, uint32_t other)
         parent[b] = a;
 }
 
-static scree_status find_members(const scree_state *state, const scree_contact_table *table, scree_pile *pile,
-                                 scree_error *error)
+/// Whether the contact is with this wall of the case.
+static bool is_of_wall(const scree_work *work, const scree_contact *contact, int wall)
+{
+    return contact->wall && contact->second >= SCREE_PRIMITIVE_ID &&
+           scree_primitive_surface(work->wall_set, contact->second - SCREE_PRIMITIVE_ID) == wall;
+}
+
+/// What the pile rests on: this wall, or all walls.
+static bool is_plate(const scree_work *work, const scree_contact *contact, int plate)
+{
+    return contact->wall && (plate < 0 || is_of_wall(work, contact, plate));
+}
+
+static scree_status find_members(const scree_state *state, const scree_work *work, const scree_contact_table *table,
+                                 int plate, scree_pile *pile, scree_error *error)
 {
     const uint32_t stands = (uint32_t)state->count;
     uint32_t *parent;
@@ -43,13 +56,16 @@ static scree_status find_members(const scree_state *state, const scree_contact_t
         parent[row] = row < stands && is_fixed(state, row) ? stands : row;
     for (size_t c = 0; c < table->count && !status; c++) {
         const scree_contact *contact = &table->contact[c];
-        join(parent, contact->first, contact->wall ? stands : contact->second);
+        if (!contact->wall || is_plate(work, contact, plate))
+            join(parent, contact->first, contact->wall ? stands : contact->second);
     }
     for (uint32_t row = 0; row < stands && !status; row++) {
         bool in = !is_fixed(state, row) && scree_body_is_grain(state, row) && root_of(parent, row) == stands;
         pile->member[row] = in;
         pile->grains += in;
     }
+    for (size_t c = 0; c < table->count && !status; c++)
+        pile->hanging += table->contact[c].wall && !pile->member[table->contact[c].first];
     scree_release(&parent);
     return status;
 }
@@ -60,13 +76,6 @@ static scree_status find_members(const scree_state *state, const scree_contact_t
 static double lift_of(const scree_contact *contact, int up)
 {
     return contact->normal_force * contact->normal[up] + contact->tangential_force * contact->tangent[up];
-}
-
-/// Whether the contact is with this wall of the case.
-static bool is_of_wall(const scree_work *work, const scree_contact *contact, int wall)
-{
-    return contact->wall && contact->second >= SCREE_PRIMITIVE_ID &&
-           scree_primitive_surface(work->wall_set, contact->second - SCREE_PRIMITIVE_ID) == wall;
 }
 
 /// Sums over the contacts of the pile with what stands; and where the lowest of them is.
@@ -239,9 +248,8 @@ static void count_contacts(const scree_state *state, const scree_work *work, con
             const scree_contact *contact = &table->contact[c];
             ends += pile->member[contact->first];
             ends += !contact->wall && pile->member[contact->second];
-            const bool on = pile->member[contact->first] && contact->wall &&
-                            (plate < 0 || is_of_wall(work, contact, plate)) && contact->point[0] >= from &&
-                            contact->point[0] <= to;
+            const bool on = pile->member[contact->first] && is_plate(work, contact, plate) &&
+                            contact->point[0] >= from && contact->point[0] <= to;
             scree_integer_sum_add(&middle, on ? lift_of(contact, up) : 0);
         }
     }
@@ -257,7 +265,7 @@ scree_status scree_pile_measure(const scree_model *model, const scree_state *sta
     *pile = (scree_pile){.base = NAN, .top = NAN, .left = NAN, .right = NAN, .apex = NAN};
     pile->solid_fraction = pile->coordination = pile->middle = NAN;
     for (int k = 0; k < 2; k++) pile->angle[k] = pile->fitted[k] = NAN;
-    scree_status status = find_members(state, table, pile, error);
+    scree_status status = find_members(state, work, table, plate, pile, error);
     if (!status && pile->grains > 0) {
         sum_forces(state, work, table, plate, pile);
         weigh(model, state, pile);

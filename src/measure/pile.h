@@ -1,7 +1,8 @@
 /// A pile: the grains that rest on something that stands, their outline, height and width, and angles of repose.
 ///
 /// Which grains. Those that hang together by contacts with a wall, a plate or a body whose velocity is prescribed, or
-/// with such a grain: what falls is left out. They are the pile as a whole; its heap is what lies around its highest
+/// with such a grain: what falls is left out. Of walls only the plate counts where one is named, so that what slides
+/// down a funnel is no pile yet. They are the pile as a whole; its heap is what lies around its highest
 /// grain without a gap of more than a mean diameter: single grains that have rolled away have no part in widths and
 /// angles.
 ///
@@ -35,6 +36,7 @@ typedef struct scree_pile_column {
 typedef struct scree_pile {
     uint8_t *member; ///< a row: 1: it is a grain of the pile that nothing prescribes
     size_t grains;
+    size_t hanging;     ///< contacts of other grains with walls that are not the plate
     double weight;      ///< N
     double support;     ///< N, upward force on these grains of what stands, and of the plate alone
     double plate;       ///< N

@@ -22,7 +22,8 @@ typedef struct config {
 
 static const scree_key keys[] = {
     KEY(config, plate, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
-        .meaning = "Name of the wall whose force is compared with the weight of a pile; auto: all that stands."),
+        .meaning = "Name of the wall on which a pile lies, whose force is compared with its weight; auto: all that "
+                   "stands."),
 };
 
 static const config *own_config(const scree_config *whole)
@@ -194,17 +195,22 @@ static void write_outline(FILE *file, const scree_pile *pile)
     }
 }
 
-/// Grains that hang on something beside the plate, such as a funnel, are counted in the pile: heights and angles are
-/// not those of what lies on the plate.
+/// Grains that hang on something beside the plate, such as a funnel: they are no part of the pile, or it leans on it.
 static void warn_of_hanging(const scree_conclusion *run, const scree_pile *pile)
 {
     const numbers *n = scree_model_numbers(&run->s->model, SCREE_SLOT_pile);
-    if (!n || n->plate < 0 || !(pile->plate < (1 - PLATE_MISSES) * pile->support)) return;
-    scree_log_write(run->log, SCREE_LOG_WARNING,
-                    "wall '%s' (measure.plate) bears %.1f %% of the pile, the rest hangs on something else that "
-                    "stands: if that is a funnel, it has clogged, and height and angles are also those of the grains "
-                    "in it; make its opening wider",
-                    run->s->model.walls_of_case[n->plate].name, 100 * pile->plate / pile->support);
+    if (!n || n->plate < 0) return;
+    const char *name = run->s->model.walls_of_case[n->plate].name;
+    if (pile->hanging > 0)
+        scree_log_write(run->log, SCREE_LOG_WARNING,
+                        "grains that are no part of the pile on wall '%s' touch other walls at %zu points: if these "
+                        "are a funnel, it has clogged; make its opening wider",
+                        name, pile->hanging);
+    if (pile->plate < (1 - PLATE_MISSES) * pile->support)
+        scree_log_write(run->log, SCREE_LOG_WARNING,
+                        "wall '%s' (measure.plate) bears %.1f %% of the pile, the rest leans on something else that "
+                        "stands",
+                        name, 100 * pile->plate / pile->support);
 }
 
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
