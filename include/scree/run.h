@@ -21,14 +21,17 @@ typedef struct scree_progress {
 } scree_progress;
 
 typedef struct scree_run_options {
-    const char *output; ///< run directory
-    int threads;        ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
-                        ///< programs hold the cores and fewer are faster
-    bool force;         ///< write into a directory that holds another run (replaces it)
-    const char *from;   ///< scree_restart: number of the snapshot to go on from, or "latest"; NULL: a checkpoint
-    const char *after;  ///< scree_run: folder of a run whose first stages are those of the case: it goes on behind
-                        ///< the last of them that has ended there, with its rows and snapshots; NULL: from the begin
-    bool figures;       ///< draw figures at the end
+    const char *output;   ///< run directory
+    int threads;          ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
+                          ///< programs hold the cores and fewer are faster
+    bool balance_by_time; ///< of several processes: parts of the sample by the time that they take, which is not the
+                          ///< same from run to run, in place of their numbers of bodies and contacts; results are the
+                          ///< same
+    bool force;        ///< write into a directory that holds another run (replaces it)
+    const char *from;  ///< scree_restart: number of the snapshot to go on from, or "latest"; NULL: a checkpoint
+    const char *after; ///< scree_run: folder of a run whose first stages are those of the case: it goes on behind
+                       ///< the last of them that has ended there, with its rows and snapshots; NULL: from the begin
+    bool figures;      ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
     void (*progress)(void *user, const scree_progress *progress); ///< about twice a second; may be NULL
     void (*message)(void *user, int level, const char *line);     ///< lines of log.txt (level 0 information, 1 warning,
@@ -101,8 +104,8 @@ SCREE_API scree_status scree_run_data_visit(const char *directory, const char *g
                                             void (*visit)(void *user, const char *name, bool is_group), void *user,
                                             scree_error *error);
 
-/// Reads a dataset, "snapshots/000012/contacts/normal_force" (docs/output.md), into memory of its own that *keeper keeps,
-/// texts of the view too. Errors: as above.
+/// Reads a dataset, "snapshots/000012/contacts/normal_force" (docs/output.md), into memory of its own that *keeper
+/// keeps, texts of the view too. Errors: as above.
 SCREE_API scree_status scree_run_data_read(const char *directory, const char *path, scree_view *view,
                                            scree_keeper **keeper, scree_error *error);
 

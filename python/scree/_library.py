@@ -83,9 +83,9 @@ ATTRIBUTE = CFUNCTYPE(None, c_void_p, c_char_p, c_double, c_char_p)
 
 
 class RunOptions(Structure):
-    _fields_ = [("output", c_char_p), ("threads", c_int), ("force", c_bool), ("start", c_char_p), ("after", c_char_p),
-                ("figures", c_bool), ("stop", POINTER(c_int)), ("progress", PROGRESS), ("message", MESSAGE),
-                ("user", c_void_p)]
+    _fields_ = [("output", c_char_p), ("threads", c_int), ("balance_by_time", c_bool), ("force", c_bool),
+                ("start", c_char_p), ("after", c_char_p), ("figures", c_bool), ("stop", POINTER(c_int)),
+                ("progress", PROGRESS), ("message", MESSAGE), ("user", c_void_p)]
 
 
 class SweepReadOptions(Structure):

@@ -10,6 +10,7 @@
 /// says that other programs have taken processors away (thread_pool_size.h).
 #include "base/thread_pool.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 #include <limits.h>
@@ -19,7 +20,6 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <sys/syscall.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { SPINS = 2000, SPINS_BEFORE_YIELD = 1000 };
@@ -62,13 +62,6 @@ static void sleep_on(atomic_int *word, int value)
 static void wake(atomic_int *word)
 {
     (void)syscall(SYS_futex, word, FUTEX_WAKE_PRIVATE, 1, NULL, NULL, 0);
-}
-
-static double clock_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /// Accepts an offer, or takes it back.
@@ -147,15 +140,15 @@ static void wait_for_others(scree_thread_pool *pool)
         if (atomic_load_explicit(&pool->unfinished, memory_order_acquire) == 0) return;
         relax();
     }
-    double begin = clock_now(), passed = 0;
+    double begin = scree_clock(), passed = 0;
     while (atomic_load(&pool->unfinished) > 0 && passed < yield_seconds) {
         sched_yield();
-        passed = clock_now() - begin;
+        passed = scree_clock() - begin;
     }
     atomic_store(&pool->waiting, 1);
     for (int left; (left = atomic_load(&pool->unfinished)) > 0;) sleep_on(&pool->unfinished, left);
     atomic_store(&pool->waiting, 0);
-    pool->stalled += clock_now() - begin;
+    pool->stalled += scree_clock() - begin;
 }
 
 void scree_thread_pool_run(scree_thread_pool **pool, int count, scree_thread_pool_task *task, void *argument)

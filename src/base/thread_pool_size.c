@@ -1,18 +1,12 @@
 /// One decision at the end of a window.
 #include "base/thread_pool_size.h"
 
+#include "base/clock.h"
+
 #include <math.h>
-#include <time.h>
 
 enum { LEAST_STEPS = 8, COMPARED_WINDOWS = 2 };
 static const double window_seconds = 0.03, least_rest = 0.5, most_rest = 5, lost_share = 0.1;
-
-static double read_clock(clockid_t which)
-{
-    struct timespec now;
-    clock_gettime(which, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void start(scree_thread_pool_size *size, int most)
 {
@@ -83,11 +77,11 @@ int scree_thread_pool_size_choose(scree_thread_pool_size *size, int most, double
 static double lost_time(const void *user)
 {
     const scree_thread_pool *pool = user;
-    double away = read_clock(CLOCK_MONOTONIC) - read_clock(CLOCK_THREAD_CPUTIME_ID);
+    double away = scree_clock() - scree_clock_read(CLOCK_THREAD_CPUTIME_ID);
     return away + scree_thread_pool_stalled(pool);
 }
 
 int scree_thread_pool_size_follow(scree_thread_pool_size *size, const scree_thread_pool *pool, int most)
 {
-    return scree_thread_pool_size_choose(size, most, most > 1 ? read_clock(CLOCK_MONOTONIC) : 0, lost_time, pool);
+    return scree_thread_pool_size_choose(size, most, most > 1 ? scree_clock() : 0, lost_time, pool);
 }

@@ -59,7 +59,9 @@ scree_status scree_verb_run(const scree_command *command)
 {
     scree_error error = {0};
     scree_progress_display display;
+    static const char *const balances[] = {"counts", "time", NULL};
     long threads = 0;
+    size_t balance = 0;
     scree_run_options options = {
         .figures = !scree_command_has(command, "no-figures"),
         .force = scree_command_has(command, "force"),
@@ -71,10 +73,12 @@ scree_status scree_verb_run(const scree_command *command)
     const int kept = scree_launch_hush();
     scree_status status = check_combination(command, &error);
     if (!status) status = scree_command_number(command, "threads", 1, MOST_THREADS, &threads, &error);
+    if (!status) status = scree_command_choice(command, "balance", balances, &balance, &error);
     if (status) status = scree_terminal_error("run", &error);
     scree_launch_speak(kept);
     if (status) return status;
     options.threads = (int)threads;
+    options.balance_by_time = balance == 1;
     if (scree_processes_number() > 0) options.progress = NULL;
     const char *restart = scree_command_value(command, "restart"), *output = scree_command_value(command, "output");
     options.from = scree_command_value(command, "from");

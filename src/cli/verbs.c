@@ -236,6 +236,11 @@ static const scree_verb run_verbs[] = {
                     .value = "N",
                     .meaning = "most threads; fewer work while the machine is busy; the results do not depend on it",
                     .preset = "one for every 4000 bodies"},
+                   {.name = "balance",
+                    .value = "WHAT",
+                    .meaning = "with mpirun: processes share the sample by `counts` of bodies and contacts, or by the "
+                               "`time` that their parts have taken; the results do not depend on it",
+                    .preset = "counts"},
                    {.name = "force", .letter = 'f', .meaning = "replace the run that DIR holds"},
                    {.name = "no-figures", .meaning = "leave the figures out; `scree plot` draws them later"},
                    {.name = "restart",

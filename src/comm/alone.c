@@ -106,9 +106,10 @@ bool scree_comm_write_together(int64_t transfer)
     return true;
 }
 
-scree_status scree_comm_cut(const scree_vector *place, size_t count, int dimension, scree_error *error)
+scree_status scree_comm_cut(const scree_vector *place, const float *weight, size_t count, int dimension,
+                            scree_error *error)
 {
-    (void)place, (void)count, (void)dimension, (void)error;
+    (void)place, (void)weight, (void)count, (void)dimension, (void)error;
     return SCREE_OK;
 }
 

@@ -96,9 +96,10 @@ bool scree_comm_write_together(int64_t transfer);
 
 // ---- parts of space ----------------------------------------------------------------------------------------------
 
-/// Cuts space anew, so that each part holds about as many of all places [m]. All of them call it, each with its own.
-/// Errors: memory, or what the library says.
-scree_status scree_comm_cut(const scree_vector *place, size_t count, int dimension, scree_error *error) SCREE_MUST_USE;
+/// Cuts space anew, so that each part holds about as much of the weights of all places [m] (NULL: all weigh alike). All
+/// of them call it, each with its own. Errors: memory, or what the library says.
+scree_status scree_comm_cut(const scree_vector *place, const float *weight, size_t count, int dimension,
+                            scree_error *error) SCREE_MUST_USE;
 
 /// The process in whose part the place lies, after the last cut.
 int scree_comm_part_of(const scree_vector place);

@@ -2,8 +2,8 @@
 /// process to another.
 ///
 /// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
-/// when a state is spread, and anew when the fullest part has SCREE_PARTS_IMBALANCE times the mean. Between two lists a
-/// body stays where it is, however it moves. For tests bodies go anywhere, at every list, from a seed.
+/// when a state is spread, by bodies, and anew when the part that costs most (comm/balance.h) has SCREE_PARTS_IMBALANCE
+/// times the mean. Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every list, from a seed.
 ///
 /// Cost: to gather and to spread a state some copies of all of it, in every process: this is the array of all bodies
 /// that later work has to do without.
@@ -30,6 +30,8 @@ static scree_status open_parts(scree_work *work, scree_error *error)
     if (!status) status = scree_allocate(&work->parts->send, size, sizeof *work->parts->send, error);
     if (!status) status = scree_allocate(&work->parts->receive, size, sizeof *work->parts->receive, error);
     const char *seed = getenv("SCREE_RANDOM_PARTS");
+    if (!status) work->parts->balance.by_time = work->parts_by_time;
+    if (!status) scree_balance_begin(&work->parts->balance);
     if (!status && seed) work->parts->seed = strtoull(seed, NULL, 10);
     return status;
 }
@@ -70,28 +72,42 @@ static void choose(const scree_state *state, scree_parts *parts, int32_t *to)
     }
 }
 
-/// Cuts space by the places of the rows from `begin` to `end`.
-static scree_status cut(const scree_state *state, scree_parts *parts, size_t begin, size_t end, scree_error *error)
+/// Cuts space by the places of the rows from `begin` to `end`, and by their weights (NULL: alike).
+static scree_status cut(const scree_state *state, scree_parts *parts, size_t begin, size_t end, const float *weight,
+                        scree_error *error)
 {
     scree_vector *place;
     // Where there are no bodies nobody asks for the parts.
     if (parts->seed || scree_state_total(state) == 0) return SCREE_OK;
     scree_status status = scree_allocate(&place, end - begin + 1, sizeof *place, error);
     for (size_t row = begin; row < end && !status; row++) scree_body_position(state, row, place[row - begin]);
-    if (!status) status = scree_comm_cut((const double(*)[3])place, end - begin, state->dimension, error);
+    if (!status) status = scree_comm_cut((const double(*)[3])place, weight, end - begin, state->dimension, error);
     parts->cuts++;
     scree_release(&place);
     return status;
 }
 
-static bool out_of_balance(const scree_state *state, scree_parts *parts)
+static bool out_of_balance(const scree_state *state, const scree_work *work)
 {
-    double largest = (double)state->count;
+    scree_parts *parts = work->parts;
+    int64_t sum = scree_balance_cost(&parts->balance, state, work);
+    double largest = (double)sum;
     scree_comm_maximum(state, &largest, 1);
-    const double mean = (double)state->total / scree_comm_size();
+    scree_comm_add(state, &sum, 1);
+    const double mean = (double)sum / scree_comm_size();
     parts->worst = mean > 0 ? fmax(parts->worst, largest / mean) : parts->worst;
-    // One or two bodies more or less are not worth a cut.
-    return largest > SCREE_PARTS_IMBALANCE * mean + 2;
+    return largest > SCREE_PARTS_IMBALANCE * mean + scree_balance_slack(&parts->balance);
+}
+
+/// By what they cost, while the last list holds.
+static scree_status cut_anew(const scree_state *state, scree_work *work, scree_error *error)
+{
+    float *weight = NULL;
+    scree_status status = scree_balance_weights(&work->parts->balance, state, work, &weight, error);
+    if (!status) status = cut(state, work->parts, 0, state->count, weight, error);
+    scree_balance_begin(&work->parts->balance);
+    scree_release(&weight);
+    return status;
 }
 
 // ---- rows --------------------------------------------------------------------------------------------------------
@@ -330,7 +346,7 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
     int32_t *to = NULL;
     scree_status status = scree_pair_sets_list(state, work, set, &sets, error);
     if (status) return status;
-    if (out_of_balance(state, parts)) status = cut(state, parts, 0, state->count, error);
+    if (out_of_balance(state, work)) status = cut_anew(state, work, error);
     if (!status) status = scree_allocate(&to, scree_row_count(state, work) + 1, sizeof *to, error);
     if (status) return status;
     choose(state, parts, to);
@@ -355,7 +371,8 @@ scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_erro
     const size_t size = (size_t)scree_comm_size(), here = (size_t)scree_comm_rank();
     scree_status status = open_parts(work, error);
     if (!status) status = scree_allocate(&to, state->count + 1, sizeof *to, error);
-    if (!status) status = cut(state, work->parts, state->count * here / size, state->count * (here + 1) / size, error);
+    const size_t begin = state->count * here / size, end = state->count * (here + 1) / size;
+    if (!status) status = cut(state, work->parts, begin, end, NULL, error);
     if (!status) status = scree_pair_sets_list(state, work, set, &sets, error);
     if (!status) {
         choose(state, work->parts, to);

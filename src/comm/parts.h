@@ -15,6 +15,7 @@
 #ifndef SCREE_COMM_PARTS_H
 #define SCREE_COMM_PARTS_H
 
+#include "comm/balance.h"
 #include "comm/message.h"
 
 /// Who has asked for whole states, and how often.
@@ -36,6 +37,7 @@ typedef struct scree_parts {
                        ///< of the body itself
     uint64_t seed;     ///< not 0: bodies go to processes at random, from this seed (tests)
     uint64_t draws;
+    scree_balance balance;
     // counted since the begin of the process
     uint64_t gathers, gathered;                       ///< states put together, and their bytes
     scree_gather_reason reason[SCREE_GATHER_REASONS]; ///< of `gathers`
@@ -48,10 +50,10 @@ typedef struct scree_parts {
     uint64_t taken_bodies; ///< of this part, sum over the steps
     uint64_t taken_ghosts; ///< from other processes, sum over the steps
     uint64_t needed;       ///< bytes that the fields of ghosts need in the steps, sent by this process
-    double worst;          ///< bodies of the fullest part over their mean, largest when a list was due
+    double worst;          ///< cost of the part that costs most over the mean, largest when a list was due
 } scree_parts;
 
-/// Bodies of the fullest part over their mean from which on space is cut anew when a list is made.
+/// Cost of a part (comm/balance.h) over the mean from which on space is cut anew when a list is made.
 #define SCREE_PARTS_IMBALANCE 1.1
 
 /// From a whole state to a part, whose contacts have been saved (scree_contacts_save); the list has to be made anew.

@@ -1,5 +1,5 @@
 /// Parts of space by recursive coordinate bisection (Berger and Bokhari 1987), made by Zoltan, which keeps the cuts and
-/// finds the part of any place by them. Weights are numbers of bodies.
+/// finds the part of any place by them. Weights: comm/balance.h.
 #include "comm/comm.h"
 #include "comm/mpi_own.h"
 #include "comm/traffic.h"
@@ -8,6 +8,7 @@
 
 typedef struct places {
     const scree_vector *place;
+    const float *weight; ///< NULL: alike
     size_t count;
     int dimension;
 } places;
@@ -24,8 +25,11 @@ static void list_places(void *data, int globals, int locals, ZOLTAN_ID_PTR globa
                         float *weight, int *code)
 {
     const places *all = data;
-    (void)globals, (void)locals, (void)weights, (void)weight;
-    for (size_t k = 0; k < all->count; k++) global[k] = local[k] = (ZOLTAN_ID_TYPE)k;
+    (void)globals, (void)locals, (void)weights;
+    for (size_t k = 0; k < all->count; k++) {
+        global[k] = local[k] = (ZOLTAN_ID_TYPE)k;
+        weight[k] = all->weight ? all->weight[k] : 1;
+    }
     *code = ZOLTAN_OK;
 }
 
@@ -50,7 +54,7 @@ static bool open_cuts(void)
                                                 {"LB_METHOD", "RCB"},
                                                 {"KEEP_CUTS", "1"},
                                                 {"RETURN_LISTS", "NONE"},
-                                                {"OBJ_WEIGHT_DIM", "0"}};
+                                                {"OBJ_WEIGHT_DIM", "1"}};
     float version;
     if (cuts) return true;
     if (Zoltan_Initialize(0, NULL, &version) != ZOLTAN_OK || !(cuts = Zoltan_Create(scree_comm_world()))) return false;
@@ -64,9 +68,10 @@ void scree_comm_forget_cuts(void)
     if (cuts) Zoltan_Destroy(&cuts);
 }
 
-scree_status scree_comm_cut(const scree_vector *place, size_t count, int dimension, scree_error *error)
+scree_status scree_comm_cut(const scree_vector *place, const float *weight, size_t count, int dimension,
+                            scree_error *error)
 {
-    places all = {place, count, dimension};
+    places all = {place, weight, count, dimension};
     int changes, globals, locals, imports, exports, *import_process, *import_part, *export_process, *export_part;
     ZOLTAN_ID_PTR import_global, import_local, export_global, export_local;
     const double began = MPI_Wtime();

@@ -60,7 +60,8 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     counts->reductions = (double)sum[place_of(SCREE_TRAFFIC_REDUCTIONS, CALLS)] * each;
     counts->reduced = (double)sum[place_of(SCREE_TRAFFIC_REDUCTIONS, BYTES)] * each;
     counts->imbalance = most[TAKEN_BODIES] * processes / fmax(1, (double)sum[TAKEN_BODIES]);
-    counts->worst = fmax(parts->worst, counts->imbalance);
+    counts->worst = parts->worst;
+    counts->cuts = (double)parts->cuts;
     counts->gathers = (double)parts->gathers;
     counts->gathered = (double)sum[place_of(SCREE_TRAFFIC_GATHERS, BYTES)] / processes;
     counts->files = (double)scree_ranges_files(false);
@@ -103,10 +104,11 @@ void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
     scree_log_write(
         log, SCREE_LOG_INFO,
         "a process: %.1f bodies of others near its own (at most %.1f), %.2f reductions a step of %.0f bytes "
-        "in all; the fullest part has %.3f times the mean of the bodies, at a list at most %.3f; %.3g MB sent for "
-        "whole states (%.0f of them), %.3g MB for boundaries of the sample that were found anew",
+        "in all; the fullest part has %.3f times the mean of the bodies, the one that costs most at a list at most "
+        "%.3f times the mean cost, space was cut %.0f times; %.3g MB sent for whole states (%.0f of them), %.3g MB for "
+        "boundaries of the sample that were found anew",
         counts->ghosts[0], counts->ghosts[1], counts->reductions, counts->reduced, counts->imbalance, counts->worst,
-        1e-6 * counts->gathered, counts->gathers, 1e-6 * counts->placed);
+        counts->cuts, 1e-6 * counts->gathered, counts->gathers, 1e-6 * counts->placed);
     double rest = counts->stepping;
     for (int p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) rest -= counts->wait[p];
     scree_log_write(

@@ -18,7 +18,8 @@ typedef struct scree_rank_counts {
     double reductions;        ///< of a process in a step
     double reduced;           ///< bytes of their numbers
     double imbalance;         ///< bodies of the fullest part over their mean, in the mean of the steps
-    double worst;             ///< the same when a list was made, the largest
+    double worst;             ///< cost of the part that costs most over the mean when a list was made, the largest
+    double cuts;              ///< of space
     double gathers, gathered; ///< bytes that a process has sent for whole states: mean
     double files, from_parts; ///< snapshots and checkpoints that all have written; those of them from parts
     double filed;             ///< bytes that a process has sent for them: mean

@@ -2,6 +2,7 @@
 /// and snapshots there are and a restart cuts what came later.
 #include "run/recorder.h"
 
+#include "base/clock.h"
 #include "comm/comm.h"
 #include "comm/ranges.h"
 #include "state/periodic.h"
@@ -16,25 +17,12 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 /// Wall time between two progress reports, and between two lines about threads, and steps between two looks at the
 /// clock.
 #define PROGRESS_SECONDS 0.5
 #define THREADS_SECONDS  60.0
 enum { CLOCK_STEPS = 16 };
-
-static double read_clock(clockid_t which)
-{
-    struct timespec now;
-    clock_gettime(which, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-double scree_clock(void)
-{
-    return read_clock(CLOCK_MONOTONIC);
-}
 
 static void forward_line(void *user, scree_log_level level, const char *line)
 {
@@ -64,7 +52,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
 {
     *recorder = (scree_recorder){.options = options, .directory = directory, .writes = scree_ranks_write()};
     scree_status status = recorder->writes ? open_files(recorder, s, restart, error) : SCREE_OK;
-    recorder->clocked[1] = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    recorder->clocked[1] = scree_clock_read(CLOCK_PROCESS_CPUTIME_ID);
     recorder->started = recorder->clocked[0] = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->last_threads = -INFINITY;
     recorder->threads = s->work.threads;
@@ -84,7 +72,7 @@ void scree_recorder_close(scree_recorder *recorder)
 
 void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
 {
-    double now = scree_clock(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    double now = scree_clock(), processor = scree_clock_read(CLOCK_PROCESS_CPUTIME_ID);
     s->state.spent.run += now - recorder->clocked[0];
     s->state.spent.stage += now - recorder->clocked[0];
     s->state.spent.processor += processor - recorder->clocked[1];

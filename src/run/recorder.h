@@ -44,7 +44,4 @@ scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulatio
 /// Writes a snapshot of a state that a guard has stopped, for inspection; a restart writes over it.
 scree_status scree_recorder_last_look(scree_recorder *recorder, scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
-/// s, monotonic.
-double scree_clock(void);
-
 #endif

@@ -1,4 +1,5 @@
 /// The driver behind `scree run`: a case into a run directory, from the begin or from a checkpoint.
+#include "base/clock.h"
 #include "base/handle.h"
 #include "case/case.h"
 #include "comm/comm.h"
@@ -278,6 +279,7 @@ static scree_status open_case(const scree_case *c, const scree_run_options *opti
                               uint64_t *checksum, scree_error *error)
 {
     scree_status status = scree_simulation_open(c, options->threads, s, error);
+    s->work.parts_by_time = options->balance_by_time;
     if (!status) status = scree_ranks_check(s, error);
     if (!status) status = scree_case_checksum(c, checksum, error);
     return scree_ranks_open(*checksum, status, error);

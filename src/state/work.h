@@ -162,6 +162,7 @@ typedef struct scree_work {
     uint64_t flagged_id;         ///< a body that raised a flag
     size_t clear_rows;           ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
     void *contact_scratch;       ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
+    bool parts_by_time;          ///< space is cut by measured times (comm/balance.h)
     struct scree_parts *parts;   ///< what goes to other processes (comm/parts.h); NULL: all is here
 } scree_work;
 

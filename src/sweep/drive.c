@@ -7,6 +7,7 @@
 #include "sweep/several.h"
 #include "sweep/share.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/processor.h"
 #include "base/program.h"
@@ -18,7 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { MOST_JOBS = 4096, PAUSE_NANOSECONDS = 20 * 1000 * 1000 };
@@ -48,13 +48,6 @@ typedef struct drive {
     scree_status status;    ///< of what keeps the sweep from going on
     scree_error *error;
 } drive;
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static void tell(const drive *d, int level, const char *format, ...) SCREE_PRINTF(3, 4);
 static void tell(const drive *d, int level, const char *format, ...)
@@ -192,7 +185,7 @@ static scree_status start(drive *d, size_t member)
     scree_error error;
     scree_member_paths paths;
     bool running = false;
-    job j = {.member = member, .began = now(), .log = -1};
+    job j = {.member = member, .began = scree_clock(), .log = -1};
     scree_status status = scree_member_find(d->sweep, member, d->options->output, &paths, &error);
     if (!status) status = scree_member_resolve(d->sweep, member, &c, &error);
     if (!status) status = scree_member_open_log(&paths, &j.log, &error);
@@ -238,7 +231,7 @@ static void finish(drive *d, const job *j, int wait_status)
     char how[128] = "", reason[1024] = "";
     const char *name = d->sweep->folder[j->member];
     scree_member_state state = judge(d, wait_status, how, sizeof how);
-    double seconds = now() - j->began;
+    double seconds = scree_clock() - j->began;
     d->state[j->member] = state;
     if (state == SCREE_MEMBER_FAILED)
         scree_member_note(j->log, SCREE_MEMBER_FAILURE "%s", how);

@@ -479,6 +479,32 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
     grep -qE ' [1-9][0-9]* bodies sent' many/log.txt || complain "no body of $name went to another process"
 done
 
+# --- what falls together costs more than what is above it: space is cut anew by cost, and stays so; by time, too
+cat >silt.yaml <<EOF
+scree: 1
+name: silt
+seed: 11
+gravity: [0, -9.81]
+$materials
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 600}
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: x}
+walls: [{shape: plane, name: floor, point: [0, 0], normal: [0, 1]}]
+stages:
+  - {stage: prepare, method: gas, aspect_ratio: 3, solid_fraction: 20 %}
+  - {stage: relax, name: settle, duration: 0.12 s}
+$rest
+EOF
+expect 0 '|warning' "$scree" run silt.yaml -o silt-one --threads 1 --quiet
+for balance in counts time; do
+    expect 0 '|warning' on 2 silt.yaml -o silt-$balance --threads 1 --balance $balance
+    same "$(checksum silt-$balance)" "$(checksum silt-one)" "silt in parts by $balance"
+done
+checks=$((checks + 1)); grep -o 'costs most at a list at most .* times;' silt-counts/log.txt |
+    awk '{exit !($7 < 1.3 && $(NF - 1) > 3 && $(NF - 1) < 100)}' || complain "balance of silt: $(grep 'costs most' silt-counts/log.txt)"
+expect 2 "'tme' is not one of its values" on 2 silt.yaml -o no --balance tme
+
 # --- more processes than bodies in some of them
 expect 0 '|warning' on 6 shear.yaml -o few -f --set particles.count=16 --threads 1
 expect 0 '|warning' "$scree" run shear.yaml -o few-one --set particles.count=16 --threads 1 --quiet
