@@ -1,7 +1,7 @@
 /// What goes between the parts of a sample, as messages: between a periodic cell and its ghosts, and between processes.
 /// serial.c exchanges messages within one process, by copies; parts.c those with other processes. What these two and
-/// the numbers out of all parts need of a transport is in alone.c (one process) or mpi.c and mpi_numbers.c (several, the
-/// preset mpi), the parts themselves in zoltan.c.
+/// the numbers out of all parts need of a transport is in alone.c (one process) or mpi.c and mpi_numbers.c (several,
+/// the preset mpi), the parts themselves in zoltan.c.
 ///
 /// Ghosts are rows of bodies behind the `count` own ones. What is sent of a body, and what a ghost gives back, is
 /// declared with the fields (module/field.h, `ghosts`); a new field of a module needs no line here.
