@@ -108,6 +108,7 @@ static const scree_boundary face = {
     .passes = passes,
     .pass_count = COUNT(passes),
     .bound = bound,
+    .bound_differs = true,
     SCREE_IMPOSED,
 };
 

@@ -55,6 +55,7 @@
 #include "base/matrix.h"
 #include "base/wide_sum.h"
 #include "comm/comm.h"
+#include "search/moved.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
@@ -346,16 +347,42 @@ static void kinematics_share(void *argument, int index, int count)
     task->sum[index] = sum;
 }
 
-/// sum m c (x) c from rows that hold c-, rounded to integers so that it does not depend on the order of rows.
-static void measure_motion(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
+/// sum m c (x) c over the bodies that are here, from rows that hold c- [quanta].
+static void sum_motions(scree_state *state, scree_work *work, const step_maps *maps, double quantum,
+                        scree_wide_sum *sum)
 {
-    const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
     bodies_task task;
     begin_task(&task, state, work);
     task.maps = maps;
-    task.quantum = scree_fixed_quantum(4 * bound);
+    task.quantum = quantum;
     run_shares(work, kinematics_share, &task);
-    scree_comm_wide_total(state, task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
+    *sum = (scree_wide_sum){{0}};
+    for (int p = 0; p < scree_work_shares(work); p++)
+        for (int k = 0; k < 9; k++) sum->value[k] += task.sum[p].value[k];
+}
+
+static double motion_quantum(const scree_model *model, const scree_state *state)
+{
+    return scree_fixed_quantum(4 * (mass_bound(model) * state->largest_speed * state->largest_speed));
+}
+
+/// The sum over all bodies, rounded to integers so that it does not depend on the order of rows. The quantum follows
+/// from the largest speed of all processes: so that both go in one message the sum is made with that of the last step,
+/// and once more where it turns out to be another.
+static void measure_motion(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
+{
+    scree_wide_sum sum;
+    const double quantum = state->part ? work->motion_quantum : motion_quantum(model, state);
+    sum_motions(state, work, maps, quantum, &sum);
+    scree_reduction_add_wide(&work->moved.together, sum.value, 9);
+    scree_moved_join(state, work, scree_neighbours_are_due(state, work));
+    work->motion_quantum = motion_quantum(model, state);
+    if (work->motion_quantum == quantum) {
+        scree_wide_total(&sum, 1, quantum, scree_cell(state)->motion);
+        return;
+    }
+    sum_motions(state, work, maps, work->motion_quantum, &sum);
+    scree_comm_wide_total(state, &sum, 1, work->motion_quantum, scree_cell(state)->motion);
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.

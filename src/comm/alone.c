@@ -73,6 +73,24 @@ void scree_comm_add(const scree_state *state, int64_t *values, size_t count)
     (void)count;
 }
 
+void scree_comm_join_numbers(const scree_state *state, scree_reduction *reduction)
+{
+    scree_comm_join_begin(state, reduction);
+    scree_comm_join_end(state, reduction);
+}
+
+void scree_comm_join_begin(const scree_state *state, scree_reduction *reduction)
+{
+    (void)state;
+    (void)reduction;
+}
+
+void scree_comm_join_end(const scree_state *state, scree_reduction *reduction)
+{
+    (void)state;
+    reduction->parts = 0;
+}
+
 void scree_comm_trade(const uint64_t *mine, uint64_t *theirs, size_t each)
 {
     memcpy(theirs, mine, each * sizeof *mine);

@@ -1,7 +1,7 @@
 /// What goes between the parts of a sample, as messages: between a periodic cell and its ghosts, and between processes.
 /// serial.c exchanges messages within one process, by copies; parts.c those with other processes. What these two and
-/// the numbers out of all parts need of a transport is in alone.c (one process) or mpi.c (several, the preset mpi), the
-/// parts themselves in zoltan.c.
+/// the numbers out of all parts need of a transport is in alone.c (one process) or mpi.c and mpi_numbers.c (several,
+/// the preset mpi), the parts themselves in zoltan.c.
 ///
 /// Ghosts are rows of bodies behind the `count` own ones. What is sent of a body, and what a ghost gives back, is
 /// declared with the fields (module/field.h, `ghosts`); a new field of a module needs no line here.
@@ -9,6 +9,7 @@
 #define SCREE_COMM_COMM_H
 
 #include "base/integer_sum.h"
+#include "base/reduction.h"
 #include "base/wide_sum.h"
 #include "comm/message.h"
 
@@ -70,6 +71,14 @@ void scree_comm_maximum(const scree_state *state, double *values, size_t count);
 
 /// Replaces each value by the sum over all processes.
 void scree_comm_add(const scree_state *state, int64_t *values, size_t count);
+
+/// Joins all that the reduction lists, in one message, and empties the list. All processes call it, with lists alike.
+void scree_comm_join_numbers(const scree_state *state, scree_reduction *reduction);
+
+/// The same in two halves: messages of ghosts and other work may be done between them, but no other reduction. The
+/// numbers must not be read or written meanwhile.
+void scree_comm_join_begin(const scree_state *state, scree_reduction *reduction);
+void scree_comm_join_end(const scree_state *state, scree_reduction *reduction);
 
 // ---- bytes between processes, for parts.c; all of them call each function, and ask for what the others send ------
 

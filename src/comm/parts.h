@@ -46,6 +46,8 @@ typedef struct scree_parts {
     uint64_t moved;        ///< bodies that have changed their process
     uint64_t steps, bytes; ///< messages of steps: how often, and what this process sent
     uint64_t ghosts;       ///< from other processes, sum over the lists
+    uint64_t offered;      ///< own bodies, sum over the lists
+    uint64_t looked;       ///< parts that these and their images have been held against
     uint64_t taken;        ///< steps
     uint64_t taken_bodies; ///< of this part, sum over the steps
     uint64_t taken_ghosts; ///< from other processes, sum over the steps

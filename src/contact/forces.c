@@ -16,6 +16,7 @@
 #include "contact/reference.h"
 #include "contact/resting.h"
 #include "contact/surfaces.h"
+#include "state/periodic.h"
 #include "state/persistent.h"
 #include "state/plates.h"
 #include "state/sleep.h"
@@ -167,38 +168,58 @@ static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *sc
     return totals;
 }
 
-/// The totals of all processes: each has found those of its own contacts. What has been counted is an integer.
-static void join_totals(const scree_state *state, bool walls, contact_totals *totals)
+/// What is joined of the totals of all processes, of which each has found those of its own contacts, beside what they
+/// hold as numbers: whether there is a pair that settles, a force out of range, a flag.
+typedef struct joined_totals {
+    scree_reduction together;
+    double any[3];
+} joined_totals;
+
+static void list_integers(scree_reduction *together, uint64_t *first, size_t count)
 {
-    if (!state->part) return;
-    double most[] = {totals->settle, !totals->in_range, totals->largest_overlap, totals->largest_deformation,
-                     totals->largest_gap};
-    scree_comm_maximum(state, most, sizeof most / sizeof *most);
-    totals->settle = most[0] > 0;
-    totals->in_range = !(most[1] > 0);
-    totals->largest_overlap = most[2];
-    totals->largest_deformation = most[3];
-    totals->largest_gap = most[4];
-    struct {
-        uint64_t *value;
-        size_t count;
-    } const sums[] = {{&totals->damping, 1},
-                      {&totals->friction, 1},
-                      {&totals->stiffness, 1},
-                      {totals->wall_force, SCREE_WALL_COUNT},
-                      {totals->wall_shear[0], 3 * SCREE_WALL_COUNT},
-                      {totals->surface_force[0], 3 * SCREE_SURFACES},
-                      {totals->surface_torque[0], 3 * SCREE_SURFACES}};
+    scree_reduction_add(together, (int64_t *)first, count);
+}
+
+/// The totals as they are to be joined. What has been counted is an integer.
+static void list_totals(const scree_work *work, contact_totals *totals, joined_totals *joined)
+{
+    scree_reduction *together = &joined->together;
+    joined->any[0] = totals->settle;
+    joined->any[1] = !totals->in_range;
+    joined->any[2] = work->flags != 0;
+    scree_reduction_maximum(together, joined->any, 3);
+    scree_reduction_maximum(together, &totals->largest_overlap, 1);
+    scree_reduction_maximum(together, &totals->largest_deformation, 1);
+    scree_reduction_maximum(together, &totals->largest_gap, 1);
+    list_integers(together, &totals->damping, 1);
+    list_integers(together, &totals->friction, 1);
+    list_integers(together, &totals->stiffness, 1);
+    list_integers(together, totals->wall_force, SCREE_WALL_COUNT);
+    list_integers(together, totals->wall_shear[0], 3 * SCREE_WALL_COUNT);
     // Of the walls of the case nothing is sent where there are none.
-    const size_t kinds = walls ? 7 : 5;
-    int64_t all[3 + 4 * SCREE_WALL_COUNT + 6 * SCREE_SURFACES];
-    size_t count = 0;
-    for (size_t k = 0; k < kinds; count += sums[k++].count)
-        memcpy(all + count, sums[k].value, sums[k].count * sizeof *all);
-    scree_comm_add(state, all, count);
-    count = 0;
-    for (size_t k = 0; k < kinds; count += sums[k++].count)
-        memcpy(sums[k].value, all + count, sums[k].count * sizeof *all);
+    if (!work->wall_set) return;
+    list_integers(together, totals->surface_force[0], 3 * SCREE_SURFACES);
+    list_integers(together, totals->surface_torque[0], 3 * SCREE_SURFACES);
+}
+
+/// Joins the totals in one message, and adds what ghosts have collected to their bodies. The message goes beside those
+/// of the ghosts, but where a virial goes with it: that needs what comes back.
+static void join_totals(scree_state *state, scree_work *work, contact_totals *totals)
+{
+    joined_totals joined = {.together = {.parts = 0}};
+    const bool waits = scree_periodic_is_whole(state);
+    scree_virial virial;
+    list_totals(work, totals, &joined);
+    if (!waits) scree_comm_join_begin(state, &joined.together);
+    scree_ghosts_add_back(state, work, &virial, &joined.together);
+    if (waits)
+        scree_comm_join_numbers(state, &joined.together);
+    else
+        scree_comm_join_end(state, &joined.together);
+    scree_ghosts_settle_virial(state, work, &virial);
+    totals->settle = joined.any[0] > 0;
+    totals->in_range = !(joined.any[1] > 0);
+    work->alarm = joined.any[2] > 0;
 }
 
 /// Tangential force on wall `w` [N].
@@ -254,9 +275,8 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
-    join_totals(state, work->wall_set != NULL, &totals);
+    join_totals(state, work, &totals);
     contact_resting_loads(state, &job->scale, &totals);
-    scree_ghosts_add_back(state, work);
     return totals;
 }
 
@@ -276,6 +296,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     state->largest_overlap = fmax(totals.largest_overlap, scree_sleep_of(state)->overlap);
     scree_persistent(state)->largest_deformation = totals.largest_deformation;
     scree_persistent(state)->largest_gap = totals.largest_gap;
-    if (!totals.in_range || totals.largest_overlap > contact_overlap_limit(model) * model->radius_min)
-        contact_diagnose(model, state, work, job.scale.force_limit);
+    if (totals.in_range && !(totals.largest_overlap > contact_overlap_limit(model) * model->radius_min)) return;
+    contact_diagnose(model, state, work, job.scale.force_limit);
+    work->alarm = true;
 }

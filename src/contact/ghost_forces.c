@@ -40,14 +40,13 @@ VIRIAL_INLINE void add_faces(int dimension, const scree_sum_row *sum, const scre
     for (int k = 0; k < 9; k++) faces[k] = (int64_t)total[k];
 }
 
-/// Sum of force (x) shift [quanta] over the ghosts, modulo 2^64.
+/// Sum of force (x) shift [quanta] over the ghosts that are here, modulo 2^64.
 static void sum_faces(const scree_state *state, const scree_ghost_list *list, int64_t faces[9])
 {
     if (state->dimension == 3)
         add_faces(3, state->sum + state->count, list, faces);
     else
         add_faces(2, state->sum + state->count, list, faces);
-    scree_comm_add(state, faces, 9);
 }
 
 typedef struct virial_task {
@@ -100,35 +99,79 @@ static void sum_share(void *argument, int index, int count)
     task->sum[index] = sum;
 }
 
-/// sum over bodies of F (x) x [J].
-static void sum_bodies(const scree_state *state, scree_work *work, double product[9])
+/// Magnitude of the largest coordinate of a body that is here [m].
+static double largest_coordinate(virial_task *task, scree_work *work)
 {
-    virial_task task; // large, and filled by the shares
     const int shares = scree_work_shares(work);
     double largest = 0;
-    int exponent;
-    task.state = state;
-    scree_thread_pool_run(&work->pool, shares, bound_share, &task);
-    for (int k = 0; k < shares; k++) largest = fmax(largest, task.largest[k]);
-    scree_comm_maximum(state, &largest, 1);
-    (void)frexp(largest, &exponent);
-    task.bound = ldexp(1.0, exponent);
-    scree_thread_pool_run(&work->pool, shares, sum_share, &task);
-    scree_comm_wide_total(state, task.sum, shares, state->force_quantum * task.bound, product);
+    scree_thread_pool_run(&work->pool, shares, bound_share, task);
+    for (int k = 0; k < shares; k++) largest = fmax(largest, task->largest[k]);
+    return largest;
 }
 
-void scree_ghosts_add_back(scree_state *state, scree_work *work)
+/// sum over bodies that are here of F (x) x [quanta of the force times task->bound].
+static void sum_bodies(virial_task *task, scree_work *work, scree_wide_sum *sum)
+{
+    const int shares = scree_work_shares(work);
+    scree_thread_pool_run(&work->pool, shares, sum_share, task);
+    *sum = (scree_wide_sum){{0}};
+    for (int p = 0; p < shares; p++)
+        for (int k = 0; k < 9; k++) sum->value[k] += task->sum[p].value[k];
+}
+
+static double power_above(double largest)
+{
+    int exponent;
+    (void)frexp(largest, &exponent);
+    return ldexp(1.0, exponent);
+}
+
+/// The quantum of the sum over bodies follows from the largest coordinate of all processes. So that sum and coordinate
+/// go in one message the sum is made with that of the last step, and once more where it turns out to be another.
+static void list_virial(const scree_state *state, scree_work *work, scree_virial *virial, scree_reduction *together)
+{
+    virial_task task; // large, and filled by the shares
+    task.state = state;
+    virial->largest = largest_coordinate(&task, work);
+    virial->bound = task.bound = state->part ? work->virial_bound : power_above(virial->largest);
+    sum_bodies(&task, work, &virial->bodies);
+    scree_reduction_maximum(together, &virial->largest, 1);
+    scree_reduction_add(together, virial->faces, 9);
+    scree_reduction_add_wide(together, virial->bodies.value, 9);
+}
+
+void scree_ghosts_add_back(scree_state *state, scree_work *work, scree_virial *virial, scree_reduction *together)
+{
+    virial->whole = scree_periodic_is_whole(state);
+    if (!scree_cell(state)->directions && !state->part) return;
+    if (virial->whole) sum_faces(state, &work->ghosts, virial->faces);
+    scree_comm_add_back(state, work);
+    if (virial->whole) list_virial(state, work, virial, together);
+}
+
+/// sum over bodies of F (x) x [J].
+static void total_of_bodies(const scree_state *state, scree_work *work, scree_virial *virial, double product[9])
+{
+    virial_task task;
+    task.state = state;
+    task.bound = work->virial_bound = power_above(virial->largest);
+    const double quantum = state->force_quantum * task.bound;
+    if (task.bound == virial->bound) {
+        scree_wide_total(&virial->bodies, 1, quantum, product);
+        return;
+    }
+    sum_bodies(&task, work, &virial->bodies);
+    scree_comm_wide_total(state, &virial->bodies, 1, quantum, product);
+}
+
+void scree_ghosts_settle_virial(const scree_state *state, scree_work *work, scree_virial *virial)
 {
     scree_periodic_cell *cell = scree_cell(state);
-    int64_t faces[9] = {0};
-    if (!cell->directions && !state->part) return;
-    bool whole = scree_periodic_is_whole(state);
-    if (whole) sum_faces(state, &work->ghosts, faces);
-    scree_comm_add_back(state, work);
-    if (!whole) return;
-    sum_bodies(state, work, cell->virial);
+    if (!virial->whole) return;
+    total_of_bodies(state, work, virial, cell->virial);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++)
-                cell->virial[3 * i + j] += (double)faces[3 * i + k] * state->force_quantum * cell->lattice[3 * j + k];
+                cell->virial[3 * i + j] +=
+                    (double)virial->faces[3 * i + k] * state->force_quantum * cell->lattice[3 * j + k];
 }

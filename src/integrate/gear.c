@@ -252,7 +252,8 @@ static scree_speeds speeds_of(const scree_state *state, size_t row)
     const double surface = sqrt(fmax(centre, ahead)) + state->row[row].radius * sqrt(fmax(spin, turning));
     // fmax would lose what is not a number.
     const bool finite = centre + spin + ahead + turning < (double)INFINITY;
-    return finite ? (scree_speeds){surface, sqrt(centre)} : (scree_speeds){(double)INFINITY, (double)INFINITY};
+    return finite ? (scree_speeds){.surface = surface, .centre = sqrt(centre)}
+                  : (scree_speeds){.surface = (double)INFINITY, .centre = (double)INFINITY};
 }
 
 // ---- the step ------------------------------------------------------------------------------------------------------
@@ -303,9 +304,7 @@ static void first(const scree_model *model, scree_state *state, scree_work *work
         largest.surface = fmax(largest.surface, task.speeds[k].surface);
         largest.centre = fmax(largest.centre, task.speeds[k].centre);
     }
-    double most[] = {largest.surface, largest.centre};
-    scree_comm_maximum(state, most, 2);
-    scree_kick_add_work(state, work, (scree_speeds){most[0], most[1]});
+    scree_moved_tell(state, work, &largest);
 }
 
 static void share_second(void *argument, int index, int count)

@@ -7,16 +7,11 @@
 #define SCREE_INTEGRATE_KICK_H
 
 #include "base/fixed.h"
-#include "comm/comm.h"
 #include "integrate/integrate.h"
+#include "search/moved.h"
 #include "state/sleep.h"
 
 #include <math.h>
-
-/// Largest of |v| + R |w| (all) and of |v| (moving), over the bodies; NaN speeds count as infinite.
-typedef struct scree_speeds {
-    double surface, centre;
-} scree_speeds;
 
 /// What one step adds: h times the quanta and gravity. whole: of the part of a kick before a drift, all of it.
 typedef struct scree_kick_scale {
@@ -93,12 +88,12 @@ KICK_INLINE scree_speeds scree_drift(int dimension, const scree_kick_rows *rows,
     double speed2 = row->vx * row->vx + row->vy * row->vy;
     if (dimension == 2) {
         rows->angle[i] += dt * row->spin;
-        return (scree_speeds){.surface = row->radius * fabs(row->spin), .centre = speed2};
+        return (scree_speeds){.spin = row->radius * fabs(row->spin), .centre = speed2};
     }
     row->z += dt * row->vz;
     const scree_turn_row *turn = &rows->turn[i];
     double spin2 = turn->wx * turn->wx + turn->wy * turn->wy + turn->wz * turn->wz;
-    return (scree_speeds){.surface = row->radius * row->radius * spin2, .centre = speed2 + row->vz * row->vz};
+    return (scree_speeds){.spin = row->radius * row->radius * spin2, .centre = speed2 + row->vz * row->vz};
 }
 
 /// What the members of a thread pool share.
@@ -121,7 +116,7 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_
                                   state->angle, state->predicted, form};
     const scree_kick_scale scale = task->scale;
     const double dt = state->step_size;
-    double surface = 0, centre = 0;
+    double spin = 0, centre = 0;
     for (size_t k = begin; k < end; k++) {
         const size_t i = moving ? moving[k] : k;
         scree_predicted added = scree_kick_velocity(dimension, &rows, i, &scale);
@@ -131,11 +126,11 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_
         if (rows.predicted) scree_kick_predict(dimension, &rows.predicted[i], added, scale.whole);
         scree_speeds moved = scree_drift(dimension, &rows, i, dt);
         centre = moved.centre > centre ? moved.centre : centre;
-        surface = moved.surface > surface ? moved.surface : surface;
+        spin = moved.spin > spin ? moved.spin : spin;
         // A speed that is not a number would be lost by the comparisons above.
-        if (!(moved.centre + moved.surface < (double)INFINITY)) centre = (double)INFINITY;
+        if (!(moved.centre + moved.spin < (double)INFINITY)) centre = (double)INFINITY;
     }
-    return (scree_speeds){.surface = surface, .centre = centre};
+    return (scree_speeds){.spin = spin, .centre = centre};
 }
 
 KICK_INLINE scree_speeds scree_kick_of(int dimension, const scree_form *form, const uint32_t *moving,
@@ -183,28 +178,19 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
         scree_sleep_clear_sums(state);
         work->clear_rows = scree_row_count(state, work);
     }
-    double surface = 0, centre = 0;
+    double spin = 0, centre = 0;
     for (int k = 0; k < count; k++) {
-        surface = fmax(surface, task.speeds[k].surface);
+        spin = fmax(spin, task.speeds[k].spin);
         centre = fmax(centre, task.speeds[k].centre);
     }
-    // Each for itself: their sum bounds the speed of all surfaces.
-    if (drift && state->part) {
-        double most[] = {surface, centre};
-        scree_comm_maximum(state, most, 2);
-        surface = most[0];
-        centre = most[1];
-    }
-    centre = sqrt(centre);
-    return (scree_speeds){.surface = centre + (state->dimension == 2 ? surface : sqrt(surface)), .centre = centre};
+    return (scree_speeds){.centre = sqrt(centre), .spin = state->dimension == 2 ? spin : sqrt(spin)};
 }
 
-/// Accumulates the speeds of a drift: bound for the quanta, budget of the neighbour list, NaN flag.
-static inline void scree_kick_add_work(scree_state *state, scree_work *work, scree_speeds speeds)
+/// A kick and a drift, whose speeds are told.
+static inline void scree_kick_and_drift(const scree_model *model, scree_state *state, scree_work *work, double h)
 {
-    state->largest_speed = speeds.surface;
-    work->budget -= state->step_size * speeds.centre;
-    if (!isfinite(speeds.surface)) work->flags |= SCREE_FLAG_NAN;
+    const scree_speeds speeds = scree_kick(model, state, work, h, true);
+    scree_moved_tell(state, work, &speeds);
 }
 
 #endif

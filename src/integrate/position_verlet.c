@@ -7,7 +7,7 @@
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_add_work(state, work, scree_kick(model, state, work, state->step_size, true));
+    scree_kick_and_drift(model, state, work, state->step_size);
 }
 
 static const scree_integrator integrator = {

@@ -43,6 +43,7 @@
 
 /// Steps from one time at which some wake, or fall asleep, to the next: each makes a new list.
 enum { WAKE_EVERY = 16, FALL_EVERY = 128 };
+_Static_assert(FALL_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
 
 /// In `asleep`, while a step decides.
 enum { AWAKE = 0, ASLEEP = 1, FALLS = 2, WAKES = 3 };
@@ -411,15 +412,13 @@ static scree_status decide(const scree_context *c, scree_error *error)
     if (!may_sleep(c, &limits)) return SCREE_OK;
     scree_status status = make_room(state, error);
     if (status) return status;
-    size_t awake;
-    (void)scree_moving_rows(state, &awake);
-    size_t found = mark_waking(c, &limits);
-    if (state->evaluations % FALL_EVERY == 0) found += mark_falling(c, &limits);
-    int64_t all[] = {(int64_t)awake, (int64_t)found};
-    scree_comm_add(state, all, 2);
-    sleep->awake_steps += (uint64_t)all[0];
+    int64_t found = (int64_t)mark_waking(c, &limits);
+    if (state->evaluations % FALL_EVERY == 0) found += (int64_t)mark_falling(c, &limits);
+    // In the other steps nobody finds any.
+    if (state->evaluations % WAKE_EVERY == 0) scree_comm_add(state, &found, 1);
+    sleep->awake_steps += scree_state_total(state) - sleep->total;
     sleep->steps++;
-    sleep->found = (uint64_t)all[1];
+    sleep->found = (uint64_t)found;
     return SCREE_OK;
 }
 

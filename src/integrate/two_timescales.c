@@ -65,7 +65,7 @@ static uint64_t ticks(const scree_model *model, const scree_state *state)
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_add_work(state, work, scree_kick(model, state, work, state->kick_size, true));
+    scree_kick_and_drift(model, state, work, state->kick_size);
 }
 
 static const scree_integrator integrator = {.steps = steps, .ticks = ticks, .first = first, .velocity_lead = 0.0};

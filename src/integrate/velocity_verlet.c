@@ -7,7 +7,7 @@
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_add_work(state, work, scree_kick(model, state, work, 0.5 * state->step_size, true));
+    scree_kick_and_drift(model, state, work, 0.5 * state->step_size);
 }
 
 static void second(const scree_model *model, scree_state *state, scree_work *work)

@@ -30,6 +30,7 @@
 #include "comm/comm.h"
 #include "integrate/integrate.h"
 #include "load/prescribed.h"
+#include "search/moved.h"
 #include "state/deformation.h"
 
 #include <string.h>
@@ -327,7 +328,7 @@ scree_status scree_prescribed_move(const scree_context *c, scree_error *error)
     const scree_prescribed *all = scree_prescribed_of(state);
     scree_integer_sum shock[SCREE_LOADS] = {0};
     order list[SCREE_LOADS];
-    double before = state->largest_speed;
+    double fastest = 0;
     (void)error;
     read_orders(c, scree_state_time(state) + 0.5 * state->step_size, list);
     while (scree_comm_sum_next(state, shock, SCREE_LOADS))
@@ -335,11 +336,8 @@ scree_status scree_prescribed_move(const scree_context *c, scree_error *error)
             if (state->held[all->row[k]]) add_shocks(state, all->row[k], list, shock);
     keep_work(state, shock, 0.5);
     for (uint64_t k = 0; k < all->listed; k++)
-        if (state->held[all->row[k]])
-            state->largest_speed = fmax(state->largest_speed, move_body(state, all->row[k], list));
-    scree_comm_maximum(state, &state->largest_speed, 1);
-    // The list of neighbours has reckoned with the speeds of the kick.
-    c->work->budget -= state->step_size * (state->largest_speed - before);
+        if (state->held[all->row[k]]) fastest = fmax(fastest, move_body(state, all->row[k], list));
+    scree_moved_drive(state, c->work, fastest);
     take_half_work(state);
     return SCREE_OK;
 }

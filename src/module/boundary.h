@@ -49,8 +49,9 @@ typedef struct scree_boundary {
     /// when rows hold v(n + 1/2).
     const scree_pass *passes;
     size_t pass_count;
-    /// As that of a module.
+    /// As those of a module.
     double (*bound)(const scree_context *context);
+    bool bound_differs;
 
     // ---- what stages ask of it; NULL where it cannot do that, or has nothing to do ----
     /// Time [s] that a longitudinal wave needs through the longer side of the sample at `pressure` [Pa].

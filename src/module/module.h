@@ -88,6 +88,10 @@ struct scree_module {
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);
+    bool bound_differs; ///< the bound looks at the bodies that are here: processes find different ones
+    /// A pass behind the contact forces raises flags of bodies that are here: the guard asks all processes in each
+    /// step.
+    bool flags_late;
     /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
     /// ledger.
     double (*work)(const scree_state *state);

@@ -53,9 +53,9 @@ static scree_status stop_overlap(const scree_simulation *s, scree_error *error)
                            cohesive ? ", less surface energy, a smaller step" : "");
 }
 
-void scree_guard_join(const scree_state *state, scree_work *work)
+void scree_guard_join(const scree_state *state, scree_work *work, bool late)
 {
-    if (!state->part) return;
+    if (!state->part || !(work->alarm || late)) return;
     double flags[5] = {0};
     for (int k = 0; k < 4; k++) flags[k] = work->flags >> k & 1;
     flags[4] = work->flags ? -(double)work->flagged_id : (double)-INFINITY;

@@ -10,7 +10,7 @@
 
 #define NANOSECOND 1e-9
 
-enum { TAKEN_BODIES, TAKEN_GHOSTS, NEEDED, STEPPING, FIRST_TRAFFIC };
+enum { TAKEN_BODIES, TAKEN_GHOSTS, NEEDED, OFFERED, LOOKED, STEPPING, FIRST_TRAFFIC };
 enum { MESSAGES, BYTES, CALLS, TIME, EACH };
 enum { NUMBERS = FIRST_TRAFFIC + EACH * SCREE_TRAFFIC_PURPOSES };
 
@@ -25,6 +25,8 @@ static void take_own(const scree_parts *parts, double stepping, int64_t own[NUMB
     own[TAKEN_BODIES] = (int64_t)parts->taken_bodies;
     own[TAKEN_GHOSTS] = (int64_t)parts->taken_ghosts;
     own[NEEDED] = (int64_t)parts->needed;
+    own[OFFERED] = (int64_t)parts->offered;
+    own[LOOKED] = (int64_t)parts->looked;
     own[STEPPING] = (int64_t)(stepping / NANOSECOND);
     for (scree_traffic_purpose p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) {
         const scree_traffic traffic = scree_traffic_of(p);
@@ -52,6 +54,7 @@ void scree_rank_counts_join(const scree_simulation *s, double stepping, scree_ra
     counts->ghosts[0] = (double)sum[TAKEN_GHOSTS] * each;
     counts->ghosts[1] = most[TAKEN_GHOSTS] / steps;
     counts->needed = (double)sum[NEEDED] / steps;
+    counts->looked = (double)sum[LOOKED] / fmax(1, (double)sum[OFFERED]);
     for (int k = 0; k < 2; k++) {
         const scree_traffic_purpose purpose = k == 0 ? SCREE_TRAFFIC_STEPS : SCREE_TRAFFIC_LISTS;
         counts->messages[k] = (double)sum[place_of(purpose, MESSAGES)] / steps;
@@ -106,9 +109,9 @@ void scree_rank_counts_log(const scree_rank_counts *counts, scree_log *log)
         "a process: %.1f bodies of others near its own (at most %.1f), %.2f reductions a step of %.0f bytes "
         "in all; the fullest part has %.3f times the mean of the bodies, the one that costs most at a list at most "
         "%.3f times the mean cost, space was cut %.0f times; %.3g MB sent for whole states (%.0f of them), %.3g MB for "
-        "boundaries of the sample that were found anew",
+        "boundaries of the sample that were found anew; at a list a body was held against %.2f parts",
         counts->ghosts[0], counts->ghosts[1], counts->reductions, counts->reduced, counts->imbalance, counts->worst,
-        counts->cuts, 1e-6 * counts->gathered, counts->gathers, 1e-6 * counts->placed);
+        counts->cuts, 1e-6 * counts->gathered, counts->gathers, 1e-6 * counts->placed, counts->looked);
     double rest = counts->stepping;
     for (int p = 0; p < SCREE_TRAFFIC_PURPOSES; p++) rest -= counts->wait[p];
     scree_log_write(

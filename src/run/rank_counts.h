@@ -12,6 +12,7 @@ typedef struct scree_rank_counts {
     int processes; ///< 0: there was one, or no step
     double steps;
     double ghosts[2];         ///< of a process in a step: mean, of the process with most
+    double looked;            ///< parts that a body and its images were held against when a list was made, mean
     double messages[2];       ///< in a step, of all processes: those of steps; those of lists, spread over the steps
     double bytes[2];          ///< of these
     double needed;            ///< bytes that the declared fields of the ghosts need in a step, of all processes

@@ -39,7 +39,9 @@ struct scree_simulation {
     size_t pass_count;
     double (*bounds[SCREE_MODULE_COUNT])(const scree_context *context); ///< of the loads of all modules
     size_t bound_count;
-    bool moments; ///< a module that is in use reads the moments of contact forces
+    bool moments;       ///< a module that is in use reads the moments of contact forces
+    bool bounds_differ; ///< bounds are those of the bodies of a process
+    bool flags_late;    ///< a module that is in use flags bodies behind the contact forces
     scree_stage_plan plan;
     scree_columns columns;                        ///< of series.csv
     double *sample;                               ///< the last row of them

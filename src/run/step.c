@@ -80,7 +80,7 @@ static double bound_of_loads(const scree_context *c)
     double bound = c->boundary->bound ? c->boundary->bound(c) : 0;
     const scree_simulation *s = c->simulation;
     for (size_t k = 0; k < s->bound_count; k++) bound = fmax(bound, s->bounds[k](c));
-    scree_comm_maximum(c->state, &bound, 1);
+    if (s->bounds_differ) scree_comm_maximum(c->state, &bound, 1);
     return bound;
 }
 
@@ -110,7 +110,7 @@ static scree_status second_half(const scree_context *c, scree_error *error)
 
 static scree_status guard(const scree_context *c, scree_error *error)
 {
-    scree_guard_join(c->state, c->work);
+    scree_guard_join(c->state, c->work, c->simulation->flags_late);
     // Which body it is, and where, is told of the whole state.
     if (c->state->part) return c->work->flags ? SCREE_ERROR_GUARD : SCREE_OK;
     return scree_guard_step(c->simulation, error);
@@ -140,16 +140,24 @@ static void append(scree_simulation *s, scree_phase phase, const scree_pass *pas
         }
 }
 
+/// What modules in use say of themselves.
+static void note_traits(scree_simulation *s, const scree_module *module)
+{
+    s->moments = s->moments || module->reads_moments;
+    s->bounds_differ = s->bounds_differ || module->bound_differs;
+    s->flags_late = s->flags_late || module->flags_late;
+}
+
 void scree_step_compile(scree_simulation *s)
 {
     const scree_context context = scree_step_context(s);
     s->pass_count = s->bound_count = 0;
-    s->moments = false;
-    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+    s->moments = s->flags_late = false;
+    s->bounds_differ = s->boundary->bound_differs;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
         if (scree_modules[m]->bound) s->bounds[s->bound_count++] = scree_modules[m]->bound;
-    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->reads_moments && (!scree_modules[m]->in_use || scree_modules[m]->in_use(&context)))
-            s->moments = true;
+        if (!scree_modules[m]->in_use || scree_modules[m]->in_use(&context)) note_traits(s, scree_modules[m]);
+    }
     for (scree_phase phase = 0; phase < SCREE_PHASE_COUNT; phase++) {
         append(s, phase, core, sizeof core / sizeof *core);
         for (int m = 0; m < SCREE_MODULE_COUNT; m++) {

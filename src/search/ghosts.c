@@ -13,7 +13,8 @@
 ///
 /// Parts. Where other processes have some of the bodies (comm/parts.h), they are offered ghosts of those that may come
 /// near theirs: of the body itself to processes of lower numbers, of its images with a positive shift to all. Near is
-/// what lies within reach of the box around their bodies. All own bodies look for ghosts then, those in the cells
+/// what lies within reach of the box around their bodies. The own box is held against those of all processes, for each
+/// shift, and a body against those that the own box is near. All own bodies look for ghosts then, those in the cells
 /// around some first: a bit a cell.
 ///
 /// Nothing here changes the state of bodies: rebuilding a list at another step gives the same forces to the last bit.
@@ -42,7 +43,8 @@ static void fraction_of(const scree_state *state, const scree_work *work, size_t
     scree_matrix_apply(work->ghosts.lattice_inverse, position, fraction);
 }
 
-static ghost_range measure_range(const scree_state *state, const scree_work *work)
+/// Of the bodies that are here.
+static ghost_range own_range(const scree_state *state, const scree_work *work)
 {
     ghost_range range = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     scree_periodic_widths(work->ghosts.lattice_inverse, range.width);
@@ -55,6 +57,12 @@ static ghost_range measure_range(const scree_state *state, const scree_work *wor
             range.high[k] = f[k] > range.high[k] ? f[k] : range.high[k];
         }
     }
+    return range;
+}
+
+/// Of the bodies of all processes.
+static ghost_range join_range(const scree_state *state, ghost_range range)
+{
     double ends[7] = {-range.low[0], -range.low[1], -range.low[2], range.high[0],
                       range.high[1], range.high[2], range.radius};
     scree_comm_maximum(state, ends, 7);
@@ -106,21 +114,29 @@ static bool is_positive(const int shift[3])
     return shift[0] > 0 || (shift[0] == 0 && (shift[1] > 0 || (shift[1] == 0 && shift[2] > 0)));
 }
 
+/// Shifts by which a body between these fractional coordinates may come within reach of the range: a box of them.
+static void find_shifts(const scree_state *state, const ghost_range *range, double reach, const double low[3],
+                        const double high[3], int least[3], int most[3])
+{
+    for (int k = 0; k < 3; k++) {
+        least[k] = most[k] = 0;
+        if (k >= state->dimension || !scree_periodic_repeats(scree_cell(state), k)) continue;
+        const double margin = reach / range->width[k];
+        least[k] = (int)ceil(range->low[k] - margin - high[k]);
+        most[k] = (int)floor(range->high[k] + margin - low[k]);
+    }
+}
+
 /// All ghosts of one body that are within reach of the range.
 static scree_status append_ghosts(const scree_state *state, scree_work *work, const ghost_range *range, uint32_t row,
                                   scree_error *error)
 {
-    double f[3], reach = state->row[row].radius + range->radius + work->skin;
-    int least[3] = {0}, most[3] = {0}, shift[3];
+    double f[3];
+    int least[3], most[3], shift[3];
     scree_status status = SCREE_OK;
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return SCREE_OK;
-    for (int k = 0; k < state->dimension; k++) {
-        if (!scree_periodic_repeats(scree_cell(state), k)) continue;
-        double margin = reach / range->width[k];
-        least[k] = (int)ceil(range->low[k] - margin - f[k]);
-        most[k] = (int)floor(range->high[k] + margin - f[k]);
-    }
+    find_shifts(state, range, state->row[row].radius + range->radius + work->skin, f, f, least, most);
     for (shift[0] = least[0]; shift[0] <= most[0]; shift[0]++)
         for (shift[1] = least[1]; shift[1] <= most[1]; shift[1]++)
             for (shift[2] = least[2]; shift[2] <= most[2] && !status; shift[2]++)
@@ -130,37 +146,104 @@ static scree_status append_ghosts(const scree_state *state, scree_work *work, co
 
 // ---- ghosts of bodies of other processes -------------------------------------------------------------------------
 
-/// What is offered to other processes: the boxes around their bodies.
+/// What is offered to other processes: the boxes around their bodies; those that the own box comes near by a shift.
 typedef struct neighbourhood {
-    double (*box)[6]; ///< m, of each process: lowest x, y, z, then highest
-    double reach;     ///< m, of the largest body, the skin, and the largest gap of a held pair
+    double (*box)[6];      ///< m, of each process: lowest x, y, z, then highest
+    double reach;          ///< m, of the largest body, the skin, and the largest gap of a held pair
+    int least[3], most[3]; ///< shifts that own bodies may have
+    size_t *begin;         ///< of each of these shifts in `process`, and the end of the last
+    int32_t *process;      ///< ascending in each shift
 } neighbourhood;
 
-/// Whether a body with this centre may touch one of the process.
-static bool is_near(const neighbourhood *n, int process, int dimension, const scree_vector place, double radius)
+/// Whether bodies between two corners may touch one of the process.
+static bool is_near(const neighbourhood *n, int process, int dimension, const double low[3], const double high[3],
+                    double radius)
 {
     const double *box = n->box[process], reach = n->reach + radius;
     for (int k = 0; k < dimension; k++)
-        if (!(place[k] >= box[k] - reach && place[k] <= box[3 + k] + reach)) return false;
+        if (!(high[k] >= box[k] - reach && low[k] <= box[3 + k] + reach)) return false;
     return true;
+}
+
+static void translate(const scree_state *state, const int shift[3], double place[3])
+{
+    scree_vector by, components = {shift[0], shift[1], shift[2]};
+    if (!is_positive(shift)) return;
+    scree_matrix_apply(scree_cell(state)->lattice, components, by);
+    for (int k = 0; k < 3; k++) place[k] += by[k];
+}
+
+static size_t shift_index(const neighbourhood *n, const int shift[3])
+{
+    size_t index = 0;
+    for (int k = 0; k < 3; k++)
+        index = index * (size_t)(n->most[k] - n->least[k] + 1) + (size_t)(shift[k] - n->least[k]);
+    return index;
+}
+
+/// Those to whom a ghost with this shift may be offered: the body itself to processes of lower numbers, images to all.
+/// Rounding is monotone: what one body is near, the own box is near. list: NULL: only counted. Returns how many.
+static size_t find_processes(const scree_state *state, const neighbourhood *n, double radius, const int shift[3],
+                             int32_t *list)
+{
+    const bool image = is_positive(shift);
+    const int here = scree_comm_rank(), last = image ? scree_comm_size() : here;
+    double low[3], high[3];
+    size_t count = 0;
+    if (!image && (shift[0] || shift[1] || shift[2])) return 0;
+    memcpy(low, n->box[here], sizeof low);
+    memcpy(high, n->box[here] + 3, sizeof high);
+    translate(state, shift, low);
+    translate(state, shift, high);
+    for (int r = 0; r < last; r++) {
+        if (!is_near(n, r, state->dimension, low, high, radius)) continue;
+        if (list) list[count] = r;
+        count++;
+    }
+    return count;
+}
+
+/// own: range of the bodies that are here, range: of all.
+static scree_status find_neighbours(const scree_state *state, const ghost_range *range, const ghost_range *own,
+                                    neighbourhood *n, scree_error *error)
+{
+    int shift[3];
+    bool empty = false;
+    for (int k = 0; k < state->dimension; k++) empty = empty || !(own->low[k] <= own->high[k]);
+    for (int k = 0; k < 3; k++) n->least[k] = n->most[k] = 0;
+    if (!empty) find_shifts(state, range, own->radius + n->reach, own->low, own->high, n->least, n->most);
+    const size_t shifts = shift_index(n, n->most) + 1;
+    scree_status status = scree_allocate(&n->begin, shifts + 1, sizeof *n->begin, error);
+    for (int fill = 0; fill < 2 && !status; fill++) {
+        size_t at = 0;
+        for (shift[0] = n->least[0]; shift[0] <= n->most[0]; shift[0]++)
+            for (shift[1] = n->least[1]; shift[1] <= n->most[1]; shift[1]++)
+                for (shift[2] = n->least[2]; shift[2] <= n->most[2]; shift[2]++) {
+                    n->begin[shift_index(n, shift)] = at;
+                    at += find_processes(state, n, own->radius, shift, fill ? n->process + at : NULL);
+                }
+        n->begin[shifts] = at;
+        if (!fill) status = scree_allocate(&n->process, at + 1, sizeof *n->process, error);
+    }
+    return status;
 }
 
 /// Offers the ghost to all that may need it; one of an own body for own bodies comes into the list.
 static scree_status offer(const scree_state *state, scree_work *work, const neighbourhood *n, const scree_ghost *ghost,
                           scree_error *error)
 {
-    scree_vector place, shift = {ghost->shift[0], ghost->shift[1], ghost->shift[2]}, by = {0};
-    const bool image = is_positive(ghost->shift);
-    const int here = scree_comm_rank(), last = image ? scree_comm_size() : here;
+    scree_vector place;
+    const size_t index = shift_index(n, ghost->shift);
     scree_status status = SCREE_OK;
     scree_body_position(state, ghost->parent, place);
-    if (image) scree_matrix_apply(scree_cell(state)->lattice, shift, by);
-    for (int k = 0; k < 3; k++) place[k] += by[k];
-    for (int r = 0; r < last && !status; r++) {
-        if (!is_near(n, r, state->dimension, place, state->row[ghost->parent].radius)) continue;
-        status = r == here ? append_ghost(&work->ghosts, ghost->parent, ghost->shift, error)
-                           : scree_parts_offer(work, r, ghost, error);
+    translate(state, ghost->shift, place);
+    for (size_t k = n->begin[index]; k < n->begin[index + 1] && !status; k++) {
+        const int r = n->process[k];
+        if (!is_near(n, r, state->dimension, place, place, state->row[ghost->parent].radius)) continue;
+        status = r == scree_comm_rank() ? append_ghost(&work->ghosts, ghost->parent, ghost->shift, error)
+                                        : scree_parts_offer(work, r, ghost, error);
     }
+    work->parts->looked += n->begin[index + 1] - n->begin[index];
     return status;
 }
 
@@ -169,37 +252,35 @@ static scree_status offer_ghosts(const scree_state *state, scree_work *work, con
                                  const neighbourhood *n, uint32_t row, scree_error *error)
 {
     double f[3];
-    int least[3] = {0}, most[3] = {0};
+    int least[3], most[3];
     scree_ghost ghost = {.parent = row};
+    int32_t *shift = ghost.shift;
     scree_status status = SCREE_OK;
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return SCREE_OK;
-    for (int k = 0; k < state->dimension; k++) {
-        if (!scree_periodic_repeats(scree_cell(state), k)) continue;
-        const double margin = (state->row[row].radius + n->reach) / range->width[k];
-        least[k] = (int)ceil(range->low[k] - margin - f[k]);
-        most[k] = (int)floor(range->high[k] + margin - f[k]);
-    }
-    for (int x = least[0]; x <= most[0]; x++)
-        for (int y = least[1]; y <= most[1]; y++)
-            for (int z = least[2]; z <= most[2] && !status; z++) {
-                const int shift[3] = {x, y, z};
-                memcpy(ghost.shift, shift, sizeof shift);
-                if (is_positive(shift) || !(x || y || z)) status = offer(state, work, n, &ghost, error);
-            }
+    find_shifts(state, range, state->row[row].radius + n->reach, f, f, least, most);
+    for (shift[0] = least[0]; shift[0] <= most[0]; shift[0]++)
+        for (shift[1] = least[1]; shift[1] <= most[1]; shift[1]++)
+            for (shift[2] = least[2]; shift[2] <= most[2] && !status; shift[2]++)
+                status = offer(state, work, n, &ghost, error);
     return status;
 }
 
-static scree_status make_parts(scree_state *state, scree_work *work, const ghost_range *range, scree_error *error)
+static scree_status make_parts(scree_state *state, scree_work *work, const ghost_range *range, const ghost_range *own,
+                               scree_error *error)
 {
     neighbourhood n = {.reach = range->radius + work->skin + scree_persistent(state)->largest_gap};
     scree_status status = scree_allocate(&n.box, (size_t)scree_comm_size(), sizeof *n.box, error);
     if (status) return status;
     scree_parts_boxes(state, n.box);
     work->parts->sent_count = 0;
+    work->parts->offered += state->count;
+    status = find_neighbours(state, range, own, &n, error);
     for (size_t row = 0; row < state->count && !status; row++)
         status = offer_ghosts(state, work, range, &n, (uint32_t)row, error);
     scree_release(&n.box);
+    scree_release(&n.begin);
+    scree_release(&n.process);
     work->ghosts.by_parent = work->ghosts.count;
     return status ? status : scree_parts_link(state, work, error);
 }
@@ -211,10 +292,10 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
     if (!scree_cell(state)->directions && !state->part) return SCREE_OK;
     scree_matrix_unit(list->lattice_inverse);
     if (scree_cell(state)->directions) scree_matrix_invert(scree_cell(state)->lattice, list->lattice_inverse);
-    ghost_range range = measure_range(state, work);
+    const ghost_range own = own_range(state, work), range = join_range(state, own);
     list->largest_radius = range.radius;
     scree_status status = check_range(state, &range, work->skin, error);
-    if (!status && state->part) status = make_parts(state, work, &range, error);
+    if (!status && state->part) status = make_parts(state, work, &range, &own, error);
     for (size_t row = 0; row < state->count && !status && !state->part; row++)
         status = append_ghosts(state, work, &range, (uint32_t)row, error);
     if (!state->part) list->by_parent = list->count;
@@ -410,7 +491,7 @@ scree_status scree_ghosts_search(const scree_state *state, const scree_work *wor
     if (work->ghosts.count == 0) return SCREE_OK;
     scree_status status = table_fill(state, work, &table, error);
     if (!status && state->part) status = table_mark(state, work, &table, error);
-    const ghost_range range = state->part ? (ghost_range){.radius = 0} : measure_range(state, work);
+    const ghost_range range = state->part ? (ghost_range){.radius = 0} : own_range(state, work);
     const double reach = 2 * range.radius + work->skin;
     for (size_t row = 0; row < state->count && !status; row++)
         if (state->part ? is_around(state, &table, row) : is_near_face(state, work, &range, reach, row))

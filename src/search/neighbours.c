@@ -28,6 +28,7 @@
 #include "comm/comm.h"
 #include "comm/parts.h"
 #include "search/ghosts.h"
+#include "search/moved.h"
 #include "search/search.h"
 #include "shape/wall_set.h"
 
@@ -497,6 +498,12 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
     return SCREE_OK;
 }
 
+bool scree_neighbours_are_due(const scree_state *state, const scree_work *work)
+{
+    return scree_held_changed(state, &work->search->held) ||
+           work->pairs.sleep_changes != scree_sleep_of(state)->changes;
+}
+
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
@@ -505,15 +512,15 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
         scree_wall_set_place(work->wall_set, walls, scree_case_walls_time(walls, state), state->step_size);
         walls->speed = walls->moving ? scree_wall_set_speed(work->wall_set) : 0;
     }
-    // All processes make their lists anew when one of them has to.
-    enum { KEEP, LOOK, REBUILD };
-    double due = work->budget >= 0 ? KEEP : LOOK;
-    if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
-        work->pairs.sleep_changes != scree_sleep_of(state)->changes || walls_need_rebuild(model, state, work))
-        due = REBUILD;
-    scree_comm_maximum(state, &due, 1);
-    if (due == REBUILD) return rebuild(model, state, work, error);
-    scree_status status = due == KEEP ? SCREE_OK : check_list(model, state, work, error);
-    if (!status && (work->ghosts.count > 0 || state->part)) scree_comm_exchange(state, work);
-    return status;
+    // Bodies come and go in whole samples only: what of the lists is left so is the same in all processes.
+    const bool stands = work->valid && is_of_these_bodies(work->search, state);
+    const bool due = scree_neighbours_are_due(state, work);
+    if (!work->moved.known) scree_moved_begin(state, work, due);
+    // While that goes ghosts follow, of which a list that is made anew knows nothing.
+    if (stands && (work->ghosts.count > 0 || state->part)) scree_comm_exchange(state, work);
+    if (!work->moved.known) scree_moved_end(state, work);
+    work->moved.known = false;
+    if (!stands || due || work->moved.due > 0 || walls_need_rebuild(model, state, work))
+        return rebuild(model, state, work, error);
+    return work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
 }

@@ -2,6 +2,7 @@
 #ifndef SCREE_STATE_WORK_H
 #define SCREE_STATE_WORK_H
 
+#include "base/reduction.h"
 #include "base/thread_pool_size.h"
 #include "state/body.h"
 
@@ -132,6 +133,15 @@ static inline bool scree_contacts_roll(const scree_model *model)
     return rolls;
 }
 
+/// What processes tell each other between the first half of a step and the search (search/moved.h); speeds [m/s].
+typedef struct scree_moved {
+    double surface, centre, spin, driven;
+    double due; ///< above 0: one of them has to make its list anew
+    bool told;  ///< speeds of this process wait for the message
+    bool known; ///< the message has come before the search
+    scree_reduction together;
+} scree_moved;
+
 typedef struct scree_search scree_search;     ///< cell grid and scratch, private to search/
 typedef struct scree_wall_set scree_wall_set; ///< walls of the case: shape/wall_set.h
 
@@ -160,10 +170,14 @@ typedef struct scree_work {
     int instruction_set;         ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
     uint32_t flags;              ///< SCREE_FLAG_...
     uint64_t flagged_id;         ///< a body that raised a flag
-    size_t clear_rows;           ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
-    void *contact_scratch;       ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
-    bool parts_by_time;          ///< space is cut by measured times (comm/balance.h)
-    struct scree_parts *parts;   ///< what goes to other processes (comm/parts.h); NULL: all is here
+    bool alarm;                  ///< a process may have raised one until the contact forces were known: all know this
+    scree_moved moved;
+    double virial_bound;       ///< m, of the last virial (contact/ghost_forces.c): it changes seldom
+    double motion_quantum;     ///< J, of the last sum over the motions (boundary/periodic.c), in the same way
+    size_t clear_rows;         ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
+    void *contact_scratch;     ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
+    bool parts_by_time;        ///< space is cut by measured times (comm/balance.h)
+    struct scree_parts *parts; ///< what goes to other processes (comm/parts.h); NULL: all is here
 } scree_work;
 
 /// Rows that the pair list may name: bodies and ghosts.

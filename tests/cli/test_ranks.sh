@@ -510,6 +510,26 @@ expect 0 '|warning' on 6 shear.yaml -o few -f --set particles.count=16 --threads
 expect 0 '|warning' "$scree" run shear.yaml -o few-one --set particles.count=16 --threads 1 --quiet
 same "$(checksum few)" "$(checksum few-one)" "16 bodies on 6 processes"
 
+# --- in a row of parts a body is held against those beside its own (against all: 5.7)
+cat >row.yaml <<EOF
+scree: 1
+name: row
+seed: 26
+$materials
+$(sed 's/150/400/' <<<"$discs")
+contact: {law: hertz_mindlin}
+integrator: {scheme: velocity_verlet, step_fraction: 0.2}
+boundary: {periodic: xy}
+stages:
+  - {stage: prepare, method: gas, aspect_ratio: 0.04, solid_fraction: 45 %, velocity: 0.3 m/s}
+  - {stage: relax, duration: 3 ms}
+$rest
+EOF
+expect 0 '|warning' "$scree" run row.yaml -o row-one --threads 1 --quiet
+expect 0 '|warning' on 8 row.yaml -o row --threads 1
+same "$(checksum row)" "$(checksum row-one)" '8 parts in a row'
+grep -q 'held against [12][.][0-9]* parts' row/log.txt || complain "bodies are $(grep -o 'held against.*' row/log.txt)"
+
 # --- a column that looks at the whole is named
 expect 0 '|warning' "$scree" run drum.yaml -o look-one --set measure.mean_strain=yes --threads 1 --quiet
 expect 0 '|warning' on 3 drum.yaml -o look --set measure.mean_strain=yes --threads 1

@@ -1,31 +1,118 @@
 #!/usr/bin/env bash
-# Whether built-in cases in their quick forms have the same state checksum on 1, 2 and 4 processes (preset mpi): a line
-# each, with what is refused. ranks.sh SCREE_BINARY [NAME...]: all cases that `scree list` names, or those given.
+# Whether built-in cases in their quick forms have the same state checksum on any number of processes and threads
+# (preset mpi), and that which is stored in quick.txt beside this file.
+#
+#   ranks.sh SCREE_BINARY RESULTS [-p "1 2 3 4 8"] [-t "1 2"] [-l SECONDS] [NAME...]
+#       Runs all cases that `scree list` names, or those given, the short ones first; appends a line to the file
+#       RESULTS for each case and combination: name, processes, threads, seconds, and what came of it (a checksum, or
+#       in words). What is in the file is not run again, so a call that was ended goes on; but what was not done in
+#       fewer SECONDS than now is. When a combination of a case is not done those behind it are left.
+#   ranks.sh --table RESULTS
+#       The same as a table of Markdown, a row a case. Status 1: something differs or has failed.
 set -euo pipefail
-scree=$(realpath "$1")
-shift
+stored=$(dirname "$(realpath "$0")")/quick.txt
+
+table() {
+    awk '
+    FNR == NR { if ($1 !~ /^#/) stored[$1] = $2; next }
+    {
+        if (!($1 in count)) order[++cases] = $1
+        at = $2 " x " $3
+        if (!(($1, at) in result)) combination[$1, ++count[$1]] = at
+        result[$1, at] = substr($0, length($1 $2 $3 $4) + 5)
+        seconds[$1, at] = $4
+    }
+    function add(list, item) { return list (list == "" ? "" : ", ") item }
+    function row(name,    k, at, what, wanted, agree, other, least, most, kinds, kind, where) {
+        wanted = stored[name]
+        for (k = 1; k <= count[name]; k++) {
+            at = combination[name, k]
+            what = result[name, at]
+            if (wanted == "" && what ~ /^[0-9a-f]+$/) wanted = what
+            if (what == wanted) {
+                agree = add(agree, at)
+                if (least == "" || seconds[name, at] < least) least = seconds[name, at]
+                if (seconds[name, at] > most) most = seconds[name, at]
+                continue
+            }
+            if (what !~ /^(refused|not done)/) wrong = 1
+            if (!(what in where)) kind[++kinds] = what
+            where[what] = add(where[what], at)
+        }
+        for (k = 1; k <= kinds; k++) other = add(other, kind[k] ": " where[kind[k]])
+        printf "| %s | %s | %s | %s | %s |\n", name, wanted (name in stored ? "" : " (none is stored)"), agree, \
+            least (most > least ? " to " most : ""), other
+    }
+    END {
+        print "| case | checksum | agree (processes x threads) | seconds | other |"
+        print "|---|---|---|---|---|"
+        for (c = 1; c <= cases; c++) row(order[c])
+        exit wrong
+    }' "$stored" "$1"
+}
+
+if [ "$1" = --table ]; then
+    table "$2"
+    exit
+fi
+scree=$(realpath "$1") results=$(realpath "$2")
+shift 2
+processes="1 2 3 4 8" threads="1 2" limit=600
+while getopts p:t:l: option; do
+    case $option in
+    p) processes=$OPTARG ;;
+    t) threads=$OPTARG ;;
+    l) limit=$OPTARG ;;
+    *) exit 2 ;;
+    esac
+done
+shift $((OPTIND - 1))
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+touch "$results"
+
+# Seconds of a quick form by the estimate of `scree check`, and its name.
+estimate() {
+    local seconds
+    seconds=$("$scree" check "$1" --quick 2>/dev/null | awk '
+        / time needed / { for (k = 4; k < NF; k += 2) s += $k * ($(k + 1) ~ /^h/ ? 3600 : $(k + 1) ~ /^min/ ? 60 : $(k + 1) ~ /^s/); print s; exit }')
+    printf '%s %s\n' "${seconds:-1e9}" "$1"
+}
+
+# outcome NAME PROCESSES THREADS: what the file of results says last; nothing where it is to be run, first or again.
+outcome() {
+    awk -v name="$1" -v p="$2" -v t="$3" -v limit="$limit" '
+        $1 == name && $2 == p && $3 == t { what = $5 " " $6; again = / not done in / && $(NF - 1) < limit }
+        END { if (!again) print what }' "$results"
+}
+
+# run NAME PROCESSES THREADS: appends a line to the results.
+run() {
+    local begin=$SECONDS status=0 said what
+    rm -rf "$scratch/run"
+    said=$(timeout -k 30 "$limit" mpirun --oversubscribe --bind-to none -n "$2" "$scree" run "$1" --quick --no-figures \
+        --quiet --threads "$3" -o "$scratch/run" 2>&1 </dev/null) || status=$?
+    if [ $status = 0 ]; then
+        what=$("$scree" get "$scratch/run" state_checksum)
+    elif [ $((SECONDS - begin)) -ge "$limit" ]; then
+        what="not done in $limit s"
+    else
+        what=$(sed -nE 's/.*scree run: (.*) cannot be spread.*/refused: \1/p' <<<"$said" | head -n 1)
+        what=${what:-failed: $(head -n 1 <<<"$said")}
+    fi
+    printf '%s %s %s %d %s\n' "$1" "$2" "$3" $((SECONDS - begin)) "$what" | tee -a "$results"
+}
+
 [ $# -gt 0 ] || mapfile -t names < <("$scree" list | awk '{print $1}')
 [ $# -eq 0 ] || names=("$@")
-wrong=0
-on() { mpirun --oversubscribe -n "$1" "$scree" run "$2" --quick --no-figures --quiet --threads 1 -o "$scratch/$1" 2>&1 </dev/null; }
+mapfile -t names < <(for name in "${names[@]}"; do estimate "$name"; done | sort -g | awk '{print $2}')
 for name in "${names[@]}"; do
-    begin=$SECONDS
-    rm -rf "${scratch:?}"/*
-    if ! said=$(on 2 "$name"); then
-        why=$(sed -nE "s/.*scree run: (.*) cannot be spread.*/\1/p" <<<"$said" | head -n 1)
-        [ -n "$why" ] || wrong=1
-        printf '%-24s %s\n' "$name" "${why:+refused: }${why:-failed: $(head -n 1 <<<"$said")}"
-        continue
-    fi
-    verdict=same
-    for ranks in 1 4; do
-        on $ranks "$name" >/dev/null || verdict="failed on $ranks"
-        [ "$("$scree" get "$scratch/$ranks" state_checksum)" = "$("$scree" get "$scratch/2" state_checksum)" ] || verdict="differs on $ranks"
+    for p in $processes; do
+        for t in $threads; do
+            [ -n "$(outcome "$name" "$p" "$t")" ] || run "$name" "$p" "$t"
+            [[ $(outcome "$name" "$p" "$t") != "not done"* ]] || break 2
+        done
     done
-    [ "$verdict" = same ] || wrong=1
-    printf '%-24s %s  %4d s  %s\n' "$name" "$("$scree" get "$scratch/2" state_checksum)" $((SECONDS - begin)) "$verdict"
 done
-exit $wrong
+table "$results" >/dev/null

@@ -84,6 +84,45 @@ static void check_others(const double *all, const double *own, size_t count)
     same("a maximum with NaN", values[2], NAN);
 }
 
+/// Maxima, sums and wide sums in one message, at once or while other messages go; the next one is empty.
+static void check_reduction(const double *own, size_t count, bool hidden)
+{
+    scree_reduction reduction = {0};
+    double most[3] = {-INFINITY, -1, scree_comm_rank() == 0 ? NAN : 1}, alone[2] = {-INFINITY, -1};
+    int64_t number[2] = {(int64_t)count, INT64_MAX}, counted = (int64_t)count;
+    scree_wide_sum wide = {{0}};
+    double total[9], wanted[9], boxes[SCREE_PROCESSES];
+    for (size_t k = 0; k < count; k++) {
+        most[0] = alone[0] = fmax(most[0], own[k]);
+        for (int i = 0; i < 9; i++) wide.value[i] += ((scree_wide_integer)(own[k] * 0x1p20) << 50) * (i - 4);
+    }
+    scree_comm_wide_total(NULL, &wide, 1, 0x1p-70, wanted);
+    scree_comm_maximum(NULL, alone, 2);
+    scree_comm_add(NULL, &counted, 1);
+    scree_reduction_add(&reduction, number, 2);
+    scree_reduction_maximum(&reduction, most, 2);
+    scree_reduction_add_wide(&reduction, wide.value, 9);
+    scree_reduction_maximum(&reduction, &most[2], 1);
+    if (hidden) {
+        size_t counts[SCREE_PROCESSES];
+        for (int r = 0; r < scree_comm_size(); r++) counts[r] = 1;
+        const double rank = scree_comm_rank();
+        scree_comm_join_begin(NULL, &reduction);
+        scree_comm_gather(&rank, boxes, counts, sizeof rank);
+        scree_comm_join_end(NULL, &reduction);
+        for (int r = 0; r < scree_comm_size(); r++) same("a message meanwhile", boxes[r], r);
+    } else
+        scree_comm_join_numbers(NULL, &reduction);
+    same("a maximum in a reduction", most[0], alone[0]);
+    same("a negative maximum in a reduction", most[1], -1);
+    same("a maximum with NaN in a reduction", most[2], NAN);
+    same("a count in a reduction", (double)number[0], (double)counted);
+    same("a sum modulo 2^64", (double)number[1], (double)(int64_t)(INT64_MAX * (uint64_t)scree_comm_size()));
+    scree_wide_total(&wide, 1, 0x1p-70, total);
+    for (int i = 0; i < 9; i++) same("a tensor in a reduction", total[i], wanted[i]);
+    same("lists left in a reduction", (double)reduction.parts, 0);
+}
+
 /// Of `count` rows with keys that ascend with holes each process has some, in no order, and one that it does not write.
 static void check_route(uint64_t *seed, size_t count)
 {
@@ -120,6 +159,8 @@ int main(int argc, char **argv)
     if (scree_comm_rank() == 0) printf("ranks %d\n", scree_comm_size());
     check_sums(all, own, count);
     check_others(all, own, count);
+    check_reduction(own, count, false);
+    check_reduction(own, count, true);
     check_route(&seed, TERMS);
     check_route(&seed, 3);
     check_route(&seed, 0);
