@@ -99,7 +99,7 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 {
     (void)model;
     const scree_forced_spin *forced = scree_forced(state);
-    if (!forced->active || (forced->id >= 0 && scree_state_row_of(state, (size_t)forced->id) != SCREE_NO_ROW))
+    if (!forced->active || (forced->id >= 0 && (state->part || scree_state_row_of(state, (size_t)forced->id) != SCREE_NO_ROW)))
         return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_IO, "dataset 'forced/id': %lld (accepted: the id of a body that is here)",
                            (long long)forced->id);

@@ -468,9 +468,16 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return c;
 }
 
-static void derive(scree_state *state)
+static scree_status derive(scree_state *state, scree_error *error)
 {
+    scree_sleep *sleep = scree_sleep_of(state);
+    (void)error;
     scree_sleep_list_moving(state);
+    if (!sleep->asleep) return SCREE_OK;
+    int64_t all = (int64_t)sleep->count;
+    scree_comm_add(state, &all, 1);
+    sleep->total = (uint64_t)all;
+    return SCREE_OK;
 }
 
 static const scree_result columns[] = {{"awake", "1", "particles that do not sleep"}};

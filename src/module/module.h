@@ -66,8 +66,10 @@ struct scree_module {
     void (*forget)(scree_state *state, uint32_t id);
 
     /// Renews what it derives from places and angles for contacts, or from rows: when a neighbour list is made, and in
-    /// a part when it is taken. In a step its pass does so. NULL: nothing.
-    void (*derive)(scree_state *state);
+    /// a part when it is taken, by all processes together. In a step its pass does so. Errors: memory. NULL: nothing.
+    scree_status (*derive)(scree_state *state, scree_error *error);
+    /// The same of the ghosts of bodies of other processes, when their list has been made. NULL: nothing.
+    void (*derive_ghosts)(scree_state *state, const scree_work *work);
 
     /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input
     /// has its field. NULL: nothing to do.

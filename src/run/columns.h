@@ -22,8 +22,9 @@ void scree_columns_destroy(scree_columns *columns);
 /// Number of a column; `count` when there is none of this name.
 size_t scree_columns_find(const scree_columns *columns, const char *name);
 
-/// Fills the values of the modules' columns; those of run/sample.c are there.
-scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, double *value,
+/// Fills the values of those of the modules' columns that are measured in parts, or of the others; those of
+/// run/sample.c are there.
+scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, bool in_parts, double *value,
                                    scree_error *error) SCREE_MUST_USE;
 
 /// Names of the modules that have columns in this case and need the whole sample for them, in `names` of `size` bytes;
