@@ -31,7 +31,8 @@ void scree_parts_destroy(scree_work *work)
 {
     scree_parts *parts = work->parts;
     if (!parts) return;
-    void *const arrays[] = {&parts->sent, &parts->sent_to, &parts->send, &parts->receive, &parts->out, &parts->in, &parts->own};
+    void *const arrays[] = {&parts->sent, &parts->sent_to, &parts->send, &parts->receive,
+                            &parts->out,  &parts->in,      &parts->own};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     scree_release(&work->parts);
 }

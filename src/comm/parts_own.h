@@ -39,8 +39,8 @@ void scree_parts_keep_pairs(const scree_pair_set *set, const int32_t *ends);
 scree_status scree_parts_move_pairs(scree_state *state, const scree_pair_set *set, const int32_t *ends,
                                     scree_error *error) SCREE_MUST_USE;
 
-/// The body of each row goes to to[row], with its elements of the arrays, those of the state and `relative` of a cell in
-/// motion. Errors: memory.
+/// The body of each row goes to to[row], with its elements of the arrays, those of the state and `relative` of a cell
+/// in motion. Errors: memory.
 scree_status scree_parts_move_rows(scree_state *state, scree_work *work, const int32_t *to,
                                    scree_error *error) SCREE_MUST_USE;
 

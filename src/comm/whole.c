@@ -3,8 +3,8 @@
 ///
 /// There are two ways back. Where the whole was only looked at process 0 drops what the others have. Else they drop
 /// what they have, and get all anew: what is not about bodies from the declarations (share.c), bodies and pairs as from
-/// any rows, of which each is with one process, whichever (scree_parts_spread). A preparation and a file in ranges begin
-/// with the latter.
+/// any rows, of which each is with one process, whichever (scree_parts_spread). A preparation and a file in ranges
+/// begin with the latter.
 #include "comm/comm.h"
 #include "comm/directory.h"
 #include "comm/parts_own.h"
@@ -222,8 +222,8 @@ static scree_status find_ends(const scree_state *state, const scree_directory *d
     status = scree_directory_ask(directory, id, 2 * count, ends, error);
     for (size_t k = 0; k < 2 * count && !status; k++)
         if (ends[k] < 0)
-            status = scree_error_set(error, SCREE_ERROR_IO, "a contact or bond is of body %u, which is not there",
-                                     id[k]);
+            status =
+                scree_error_set(error, SCREE_ERROR_IO, "a contact or bond is of body %u, which is not there", id[k]);
     scree_release(&id);
     return scree_comm_agree(status, error);
 }

@@ -480,6 +480,12 @@ static scree_status derive(scree_state *state, scree_error *error)
     return SCREE_OK;
 }
 
+/// What rests on others is handed back to them, with whom they have contacts.
+static bool begins_whole(const scree_context *c)
+{
+    return scree_sleep_of(c->state)->asleep != NULL;
+}
+
 static const scree_result columns[] = {{"awake", "1", "particles that do not sleep"}};
 
 static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
@@ -571,6 +577,7 @@ const scree_module scree_module_sleep = {
     .field_count = sizeof fields / sizeof *fields,
     .checksum = checksum,
     .begin = begin,
+    .begins_whole = begins_whole,
     .derive = derive,
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,

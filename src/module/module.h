@@ -74,6 +74,9 @@ struct scree_module {
     /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input
     /// has its field. NULL: nothing to do.
     scree_status (*begin)(const scree_context *context, scree_error *error);
+    /// Whether it looks at the whole sample where a stage begins, which is put together in process 0 then, and only
+    /// there: a kind of stage or a boundary where it is chosen, others where they have this or a begin. NULL: always.
+    bool (*begins_whole)(const scree_context *context);
 
     // ---- passes: what it does in a step ----
     const scree_pass *passes;
@@ -108,6 +111,9 @@ struct scree_module {
     /// that do not apply are left out. NULL: none.
     scree_status (*conclude)(const struct scree_conclusion *run, scree_error *error);
 };
+
+/// For begins_whole of those that begin with the bodies that are here, as they work in a step.
+bool scree_begins_in_parts(const scree_context *context);
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;
 #define SCREE_MODULE_SLOT(name)    SCREE_SLOT_##name,

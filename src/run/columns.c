@@ -93,6 +93,15 @@ scree_status scree_columns_measure(const scree_columns *columns, const scree_con
     return status;
 }
 
+bool scree_columns_look_at_whole(const scree_config *config)
+{
+    size_t times[SCREE_MODULE_COUNT];
+    bool some = false;
+    (void)count_columns(config, times);
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) some = some || (times[m] > 0 && !scree_modules[m]->columns.in_parts);
+    return some;
+}
+
 bool scree_columns_want_whole(const scree_columns *columns, char *names, size_t size)
 {
     size_t used = 0;

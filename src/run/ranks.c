@@ -233,6 +233,40 @@ scree_status scree_ranks_gather_contacts(scree_simulation *s, const char *what, 
     return scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
 }
 
+/// Whether a module has something to do where the stage begins, and looks at the whole sample then.
+static bool looks_at_whole(const scree_simulation *s, const scree_module *module, const scree_context *context)
+{
+    const bool steps = !s->stage->instant;
+    if (module->stage && module->stage != s->stage) return false;
+    if (module->boundary && (module->boundary != s->boundary || !steps)) return false;
+    if (!module->begins_whole) return module->stage || module->boundary || (module->begin && steps);
+    return module->begins_whole(context);
+}
+
+scree_status scree_ranks_gather_for_begin(scree_simulation *s, scree_error *error)
+{
+    const scree_context context = scree_step_context(s);
+    char what[80];
+    for (int m = 0; m < SCREE_MODULE_COUNT && s->state.part; m++) {
+        if (!looks_at_whole(s, scree_modules[m], &context)) continue;
+        (void)snprintf(what, sizeof what, "begins of stages by %s", scree_modules[m]->name);
+        return scree_ranks_gather(s, what, error);
+    }
+    return SCREE_OK;
+}
+
+scree_status scree_ranks_begun(scree_simulation *s, scree_error *error)
+{
+    if (scree_comm_size() == 1) return SCREE_OK;
+    if (is_whole_elsewhere(s)) return scree_ranks_spread(s, error);
+    scree_status status = check_stage(s, error);
+    // Ghosts have room for the arrays that there were when their list was made.
+    if (!status && s->work.valid) status = scree_contacts_save(&s->state, &s->work, error);
+    scree_neighbours_invalidate(&s->work);
+    s->table.count = 0;
+    return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
 scree_status scree_ranks_save_contacts(scree_simulation *s, scree_error *error)
 {
     return s->state.part && !s->work.valid ? SCREE_OK : scree_contacts_save(&s->state, &s->work, error);

@@ -33,6 +33,14 @@ scree_status scree_ranks_gather(scree_simulation *s, const char *what, scree_err
 /// The same, and s->table of process 0 is that of all contacts.
 scree_status scree_ranks_gather_contacts(scree_simulation *s, const char *what, scree_error *error) SCREE_MUST_USE;
 
+/// Before a stage begins, which is chosen: the same for whoever looks at the whole sample then (begins_whole of
+/// modules), named; nothing happens where nobody does. All processes call it. Errors: memory.
+scree_status scree_ranks_gather_for_begin(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
+/// A stage has begun: where process 0 has the whole all get what it has (scree_ranks_spread); a part has its list.
+/// Errors: the same.
+scree_status scree_ranks_begun(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
 /// Whether this process does what comes next: where process 0 has the whole that one alone, else all.
 bool scree_ranks_acts(const scree_simulation *s);
 

@@ -151,9 +151,10 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     if (!choose_stage(s)) return SCREE_OK;
     if (!restart || s->state.stage.counter == SCREE_STAGE_NOT_BEGUN) {
         s->state.spent.stage = s->state.spent.processor = 0;
-        scree_status status = scree_ranks_acts(s) ? begin_stage(s, error) : SCREE_OK;
+        scree_status status = scree_ranks_gather_for_begin(s, error);
+        if (!status && scree_ranks_acts(s)) status = begin_stage(s, error);
         status = scree_comm_agree(status, error);
-        if (!status) status = scree_ranks_spread(s, error);
+        if (!status) status = scree_ranks_begun(s, error);
         if (status) return status;
         if (!s->stage->instant) scree_stability_ask(s, true);
     }
@@ -214,9 +215,7 @@ static scree_status table_contacts(scree_simulation *s, scree_error *error)
 /// Begins the next stage; a loading stage is sampled at zero strain.
 static scree_status begin_next(scree_simulation *s, scree_error *error)
 {
-    const bool more = s->state.stage.index < s->model.stage_count;
-    scree_status status = more ? scree_ranks_gather(s, "begins of stages", error) : SCREE_OK;
-    if (!status) status = scree_stage_enter(s, false, error);
+    scree_status status = scree_stage_enter(s, false, error);
     if (status) return status;
     if (!s->stage) return SCREE_OK;
     if (s->stage->instant) {
