@@ -77,7 +77,7 @@ typedef struct scree_case_summary {
     double memory;                 ///< bytes, peak
     double tabor;                  ///< largest Tabor parameter of contacts of mean grains; NAN where none sticks
     double preparation;            ///< s, of the stepping
-    double lists;                  ///< s, beside it of several processes: pairs of the whole sample, at each sample
+    double lists; ///< s, beside it of several processes: pairs of the whole, where process 0 looks at it
 } scree_case_summary;
 /// Takes some tenths of a second: the case is set going for a moment. Times that cannot be found so are NAN. Errors:
 /// SCREE_ERROR_INPUT, memory.
@@ -87,10 +87,10 @@ SCREE_API scree_status scree_case_summarise(const scree_case *c, scree_case_summ
 typedef struct scree_case_rank {
     double bodies, ghosts;        ///< its own, and those of others near them that it is told of, mean
     double sent;                  ///< bytes a step, mean; lists and whole states not counted
-    double memory[2];             ///< bytes, peak: of process 0, which writes and draws; of another one
+    double memory[2];             ///< bytes, peak: of process 0, which has the whole at times; of the fullest other
     double seconds;               ///< of process 0 on a core of its own: the sum of the next four, without messages
-    double preparation, stepping; ///< s: of the whole sample; of its part
-    double lists, output;         ///< s: pairs of the whole, at each sample; samples, files and figures
+    double preparation, stepping; ///< s: of the whole sample, by process 0; of its part
+    double lists, output;         ///< s: pairs of the whole, where it is looked at; samples, files and figures
 } scree_case_rank;
 
 enum { SCREE_MOST_PROCESSES = 4096 }; ///< that can compute a run together

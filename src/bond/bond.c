@@ -106,7 +106,7 @@ static scree_status settle(const scree_context *c, scree_error *error)
 
 static bool in_use(const scree_context *c)
 {
-    return scree_persistent(c->state)->count > 0;
+    return scree_persistent_total(c->state) > 0;
 }
 
 static const scree_pass passes[] = {{SCREE_PHASE_CONTACTS, .run = settle}};

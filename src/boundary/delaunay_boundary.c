@@ -125,14 +125,15 @@ void scree_boundary_tell(const scree_state *state, const uint32_t *id, scree_bou
     scree_parts_tell(state, id, count, (double *)body, sizeof *body / sizeof(double));
 }
 
-/// Of a whole sample that will be spread.
-static void derive(scree_state *state)
+/// Of parts that are new, and of the whole.
+static scree_status derive(scree_state *state, scree_error *error)
 {
+    (void)error;
     const scree_loop *loop = scree_loop_of(state);
     const scree_hull *hull = scree_hull_of(state);
-    if (state->part) return;
     scree_boundary_tell(state, loop->id, loop->body, loop->count);
     scree_boundary_tell(state, hull->id, hull->body, hull->node_count);
+    return SCREE_OK;
 }
 
 /// Once a step: velocities are the same until the second half, positions until the next first one.

@@ -308,6 +308,7 @@ static scree_status check_bodies(const scree_state *state, scree_error *error)
 {
     const scree_membrane *m = scree_membrane_of(state);
     size_t bodies = state->marked[SCREE_MARK_MEMBRANE];
+    if (state->part) return SCREE_OK; // others have them, too
     if (m->count != bodies)
         return refuse("membrane/rest", m->count, "as many rows as there are bodies with its mark,", bodies, error);
     for (size_t k = 0; k < m->count; k++) {
@@ -338,13 +339,13 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     return SCREE_OK;
 }
 
-/// Of a whole sample that may be spread.
-static void derive(scree_state *state)
+static scree_status derive(scree_state *state, scree_error *error)
 {
+    (void)error;
     const scree_membrane *m = scree_membrane_of(state);
-    if (state->part) return;
     for (size_t k = 0; k < m->count; k++) m->id[k] = (uint32_t)(m->first_id + k);
     scree_boundary_tell(state, m->id, m->body, m->count);
+    return SCREE_OK;
 }
 
 /// Springs hold its bodies together.

@@ -128,4 +128,5 @@ const scree_module scree_module_periodic = {
     .meaning = "a cell that repeats itself in all directions",
     .boundary = &face,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

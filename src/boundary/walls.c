@@ -23,4 +23,5 @@ const scree_module scree_module_walls = {
     .choice_of = CHOICE_OF(IS("stages.boundary")),
     .boundary = &face,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

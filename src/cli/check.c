@@ -93,14 +93,14 @@ static void print_rank(const scree_case_rank *rank, long processes)
     print_line("  sends", text, "a step, without what lists and whole samples take");
     print_duration("  time needed", rank->seconds, "with a core of its own, without messages");
     if (!isnan(rank->seconds)) {
-        print_duration("    preparation", rank->preparation, "each prepares the whole sample");
+        print_duration("    preparation", rank->preparation, "of the whole sample, by process 0: the others wait");
         print_duration("    stepping", rank->stepping, "its part");
-        print_duration("    lists", rank->lists, "of the whole sample, which each has at every sample");
+        print_duration("    lists", rank->lists, "of the whole sample, where process 0 looks at it");
         print_duration("    output", rank->output, "samples, files, figures: process 0, the others wait");
     }
     scree_human_quantity(text, sizeof text, rank->memory[1], "B");
     scree_human_quantity(part, sizeof part, rank->memory[0], "B");
-    (void)snprintf(more, sizeof more, "process 0, which writes, %s: arrays of the whole sample in each", part);
+    (void)snprintf(more, sizeof more, "of the fullest part; process 0, which has the whole sample at times, %s", part);
     print_line("  memory", text, more);
 }
 

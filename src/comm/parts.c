@@ -3,26 +3,20 @@
 ///
 /// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
 /// when a state is spread, by bodies, and anew when the part that costs most (comm/balance.h) has SCREE_PARTS_IMBALANCE
-/// times the mean. Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every list, from a seed.
-///
-/// Cost: to gather and to spread a state some copies of all of it, in every process: this is the array of all bodies
-/// that later work has to do without.
-#include "comm/parts.h"
-
+/// times the mean. Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every
+/// list, from a seed.
 #include "base/checksum.h"
 #include "comm/comm.h"
-#include "comm/pair_sets.h"
-#include "comm/traffic.h"
+#include "comm/parts_own.h"
 #include "state/periodic.h"
 #include "state/row_table.h"
-#include "state/store.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static scree_status open_parts(scree_work *work, scree_error *error)
+scree_status scree_parts_open(scree_work *work, scree_error *error)
 {
     if (work->parts) return SCREE_OK;
     const size_t size = (size_t)scree_comm_size();
@@ -40,12 +34,13 @@ void scree_parts_destroy(scree_work *work)
 {
     scree_parts *parts = work->parts;
     if (!parts) return;
-    void *const arrays[] = {&parts->sent, &parts->sent_to, &parts->send, &parts->receive, &parts->out, &parts->in};
+    void *const arrays[] = {&parts->sent, &parts->sent_to, &parts->send, &parts->receive,
+                            &parts->out,  &parts->in,      &parts->own};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     scree_release(&work->parts);
 }
 
-static void forget_ghosts(scree_work *work)
+void scree_parts_forget_ghosts(scree_work *work)
 {
     work->ghosts.count = work->ghosts.away = 0;
     work->parts->sent_count = 0;
@@ -61,8 +56,7 @@ static int at_random(const scree_parts *parts, uint32_t id)
     return (int)(draw % (uint64_t)scree_comm_size());
 }
 
-/// The process that each row goes to.
-static void choose(const scree_state *state, scree_parts *parts, int32_t *to)
+void scree_parts_choose(const scree_state *state, scree_parts *parts, int32_t *to)
 {
     parts->draws++;
     for (size_t row = 0; row < state->count; row++) {
@@ -72,16 +66,14 @@ static void choose(const scree_state *state, scree_parts *parts, int32_t *to)
     }
 }
 
-/// Cuts space by the places of the rows from `begin` to `end`, and by their weights (NULL: alike).
-static scree_status cut(const scree_state *state, scree_parts *parts, size_t begin, size_t end, const float *weight,
-                        scree_error *error)
+scree_status scree_parts_cut(const scree_state *state, scree_parts *parts, const float *weight, scree_error *error)
 {
     scree_vector *place;
     // Where there are no bodies nobody asks for the parts.
     if (parts->seed || scree_state_total(state) == 0) return SCREE_OK;
-    scree_status status = scree_allocate(&place, end - begin + 1, sizeof *place, error);
-    for (size_t row = begin; row < end && !status; row++) scree_body_position(state, row, place[row - begin]);
-    if (!status) status = scree_comm_cut((const double(*)[3])place, weight, end - begin, state->dimension, error);
+    scree_status status = scree_allocate(&place, state->count + 1, sizeof *place, error);
+    for (size_t row = 0; row < state->count && !status; row++) scree_body_position(state, row, place[row]);
+    if (!status) status = scree_comm_cut((const double(*)[3])place, weight, state->count, state->dimension, error);
     parts->cuts++;
     scree_release(&place);
     return status;
@@ -104,7 +96,7 @@ static scree_status cut_anew(const scree_state *state, scree_work *work, scree_e
 {
     float *weight = NULL;
     scree_status status = scree_balance_weights(&work->parts->balance, state, work, &weight, error);
-    if (!status) status = cut(state, work->parts, 0, state->count, weight, error);
+    if (!status) status = scree_parts_cut(state, work->parts, weight, error);
     scree_balance_begin(&work->parts->balance);
     scree_release(&weight);
     return status;
@@ -112,14 +104,13 @@ static scree_status cut_anew(const scree_state *state, scree_work *work, scree_e
 
 // ---- rows --------------------------------------------------------------------------------------------------------
 
-static void count_marks(scree_state *state)
+void scree_parts_count_marks(scree_state *state)
 {
     memset(state->marked, 0, sizeof state->marked);
     for (size_t row = 0; row < state->count; row++) state->marked[state->mark[row]]++;
 }
 
-/// Element `from` of each array becomes element `to`.
-static void move_element(const scree_body_array *list, size_t arrays, size_t from, size_t to)
+void scree_parts_move_element(const scree_body_array *list, size_t arrays, size_t from, size_t to)
 {
     for (size_t k = 0; k < arrays && from != to; k++) {
         unsigned char *array = *(unsigned char **)list[k].pointer;
@@ -127,13 +118,12 @@ static void move_element(const scree_body_array *list, size_t arrays, size_t fro
     }
 }
 
-/// Leaves the rows that stay here, in their order. Ids have to be given their rows anew.
-static void keep_rows(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
+void scree_parts_keep_rows(scree_state *state, const scree_body_array *list, size_t arrays, const int32_t *to)
 {
     const int here = scree_comm_rank();
     size_t kept = 0;
     for (size_t row = 0; row < state->count; row++)
-        if (to[row] == here) move_element(list, arrays, row, kept++);
+        if (to[row] == here) scree_parts_move_element(list, arrays, row, kept++);
     // The sums of a ghost that takes a row are clear.
     for (size_t k = 0; k < arrays; k++)
         memset(*(unsigned char **)list[k].pointer + kept * list[k].size, 0, (state->count - kept) * list[k].size);
@@ -162,28 +152,23 @@ static scree_status reserve_rows(scree_state *state, scree_work *work, size_t co
 
 // ---- what belongs to two bodies ----------------------------------------------------------------------------------
 
-/// The processes that the two bodies of element `k` go to; a wall goes with the body.
-static void ends_of(const scree_state *state, const scree_pair_set *set, const int32_t *to, size_t k, int32_t end[2])
+void scree_parts_ends(const scree_state *state, const scree_pair_set *set, const int32_t *to, size_t k, int32_t end[2])
 {
     uint32_t id[2];
     scree_pair_set_ids(set, k, id);
-    const uint32_t first = scree_state_row_of(state, id[0]);
-    uint32_t second = first;
-    if (id[1] < SCREE_PRIMITIVE_ID) second = scree_state_row_of(state, id[1]);
-    end[0] = first == SCREE_NO_ROW ? scree_comm_rank() : to[first];
-    end[1] = second == SCREE_NO_ROW ? end[0] : to[second];
+    for (int i = 0; i < 2; i++) {
+        const uint32_t row = id[i] < SCREE_PRIMITIVE_ID ? scree_state_row_of(state, id[i]) : SCREE_NO_ROW;
+        end[i] = row == SCREE_NO_ROW ? SCREE_PARTS_NOBODY : to[row];
+        if (id[i] >= SCREE_PRIMITIVE_ID) end[i] = end[0];
+    }
 }
 
-/// Leaves the elements of bodies that stay here, in their order.
-static void keep_pairs(const scree_state *state, const scree_pair_set *set, const int32_t *to)
+void scree_parts_keep_pairs(const scree_pair_set *set, const int32_t *ends)
 {
+    const int here = scree_comm_rank();
     size_t kept = 0;
-    for (size_t k = 0; k < *set->count; k++) {
-        int32_t end[2];
-        ends_of(state, set, to, k, end);
-        if (end[0] != scree_comm_rank() && end[1] != scree_comm_rank()) continue;
-        move_element(set->list, set->arrays, k, kept++);
-    }
+    for (size_t k = 0; k < *set->count; k++)
+        if (ends[2 * k] == here || ends[2 * k + 1] == here) scree_parts_move_element(set->list, set->arrays, k, kept++);
     *set->count = kept;
 }
 
@@ -288,17 +273,15 @@ static scree_status tell_ghosts(scree_state *state, scree_work *work, int32_t *t
     return SCREE_OK;
 }
 
-static scree_status move_pairs(scree_state *state, const scree_pair_set *set, const int32_t *to, scree_error *error)
+scree_status scree_parts_move_pairs(scree_state *state, const scree_pair_set *set, const int32_t *ends,
+                                    scree_error *error)
 {
     const size_t count = *set->count;
-    int32_t *ends = NULL;
     journey j = {0};
-    scree_status status = scree_allocate(&ends, 2 * count + 1, sizeof *ends, error);
-    if (!status) status = journey_open(&j, 2 * count, error);
-    for (size_t k = 0; k < count && !status; k++) ends_of(state, set, to, k, ends + 2 * k);
+    scree_status status = journey_open(&j, 2 * count, error);
     if (!status) status = journey_make(&j, ends, count, set->list, set->arrays, error);
     if (!status) {
-        keep_pairs(state, set, to);
+        scree_parts_keep_pairs(set, ends);
         status = scree_pair_set_reserve(state, set, *set->count + j.arriving, error);
     }
     if (!status) {
@@ -307,11 +290,26 @@ static scree_status move_pairs(scree_state *state, const scree_pair_set *set, co
         scree_pair_set_sort(set);
     }
     journey_destroy(&j);
+    return status;
+}
+
+/// Both bodies of an element are here or among the ghosts of the last list; one that is neither stays with the other.
+static scree_status follow_bodies(scree_state *state, const scree_pair_set *set, const int32_t *to, scree_error *error)
+{
+    int32_t *ends;
+    scree_status status = scree_allocate(&ends, 2 * *set->count + 1, sizeof *ends, error);
+    for (size_t k = 0; k < *set->count && !status; k++) {
+        int32_t *end = ends + 2 * k;
+        scree_parts_ends(state, set, to, k, end);
+        if (end[0] == SCREE_PARTS_NOBODY) end[0] = scree_comm_rank();
+        if (end[1] == SCREE_PARTS_NOBODY) end[1] = end[0];
+    }
+    if (!status) status = scree_parts_move_pairs(state, set, ends, error);
     scree_release(&ends);
     return status;
 }
 
-static scree_status move_rows(scree_state *state, scree_work *work, const int32_t *to, scree_error *error)
+scree_status scree_parts_move_rows(scree_state *state, scree_work *work, const int32_t *to, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS + 1];
     int32_t *ends = NULL;
@@ -324,13 +322,13 @@ static scree_status move_rows(scree_state *state, scree_work *work, const int32_
     if (!status) status = journey_make(&j, ends, state->count, list, arrays, error);
     if (!status) {
         work->parts->moved += j.leaving;
-        keep_rows(state, list, arrays, to);
+        scree_parts_keep_rows(state, list, arrays, to);
         status = reserve_rows(state, work, state->count + j.arriving, error);
     }
     if (!status) {
         journey_end(&j, list, arrays, state->count);
         state->count += j.arriving;
-        count_marks(state);
+        scree_parts_count_marks(state);
         status = scree_row_table_begin(state, 0, error);
     }
     journey_destroy(&j);
@@ -349,127 +347,13 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
     if (out_of_balance(state, work)) status = cut_anew(state, work, error);
     if (!status) status = scree_allocate(&to, scree_row_count(state, work) + 1, sizeof *to, error);
     if (status) return status;
-    choose(state, parts, to);
+    scree_parts_choose(state, parts, to);
     status = tell_ghosts(state, work, to, error);
-    for (size_t k = 0; k < sets && !status; k++) status = move_pairs(state, &set[k], to, error);
-    if (!status) status = move_rows(state, work, to, error);
-    forget_ghosts(work);
+    for (size_t k = 0; k < sets && !status; k++) status = follow_bodies(state, &set[k], to, error);
+    if (!status) status = scree_parts_move_rows(state, work, to, error);
+    scree_parts_forget_ghosts(work);
     // Rows have moved into the places of others.
     work->clear_rows = 0;
     scree_release(&to);
     return status;
-}
-
-// ---- whole and part ----------------------------------------------------------------------------------------------
-
-scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error)
-{
-    scree_body_array list[SCREE_BODY_ARRAYS];
-    scree_pair_set set[SCREE_PAIR_SETS];
-    int32_t *to = NULL;
-    size_t sets = 0;
-    const size_t size = (size_t)scree_comm_size(), here = (size_t)scree_comm_rank();
-    scree_status status = open_parts(work, error);
-    if (!status) status = scree_allocate(&to, state->count + 1, sizeof *to, error);
-    const size_t begin = state->count * here / size, end = state->count * (here + 1) / size;
-    if (!status) status = cut(state, work->parts, begin, end, NULL, error);
-    if (!status) status = scree_pair_sets_list(state, work, set, &sets, error);
-    if (!status) {
-        choose(state, work->parts, to);
-        state->total = state->count;
-        for (size_t k = 0; k < sets; k++) {
-            if (set[k].total) *set[k].total = *set[k].count;
-            keep_pairs(state, &set[k], to);
-        }
-        keep_rows(state, list, scree_body_arrays(state, list), to);
-        count_marks(state);
-        state->part = true;
-        state->changes++;
-        forget_ghosts(work);
-        work->valid = false;
-        status = scree_row_table_begin(state, 0, error);
-        if (!status) status = scree_store_shrink(state, error);
-        for (size_t k = 0; k < sets && !status; k++)
-            if (set[k].group) status = scree_group_shrink(state, set[k].owner, set[k].group, error);
-    }
-    scree_release(&to);
-    return status;
-}
-
-/// Makes the elements of all processes the first ones of each array, which has room for them.
-static scree_status gather_arrays(scree_parts *parts, const scree_body_array *list, size_t arrays, const size_t *counts,
-                                  size_t total, scree_error *error)
-{
-    scree_status status = SCREE_OK;
-    for (size_t k = 0; k < arrays && !status; k++) {
-        unsigned char *all, *array = *(unsigned char **)list[k].pointer;
-        status = scree_allocate(&all, total + 1, list[k].size, error);
-        if (status) break;
-        scree_comm_gather(array, all, counts, list[k].size);
-        memcpy(array, all, total * list[k].size);
-        scree_release(&all);
-        parts->gathered += total * list[k].size;
-    }
-    return status;
-}
-
-/// Elements lie with both of their bodies until a list is made of them: leaves each with its first one.
-static void drop_copies(const scree_state *state, const scree_pair_set *set)
-{
-    size_t kept = 0;
-    for (size_t k = 0; k < *set->count; k++) {
-        uint32_t id[2];
-        scree_pair_set_ids(set, k, id);
-        if (scree_state_row_of(state, id[0]) != SCREE_NO_ROW) move_element(set->list, set->arrays, k, kept++);
-    }
-    *set->count = kept;
-}
-
-static scree_status gather_pairs(scree_state *state, scree_work *work, const scree_pair_set *set, scree_error *error)
-{
-    size_t counts[SCREE_PROCESSES];
-    if (!work->valid) drop_copies(state, set);
-    const size_t total = scree_parts_count(*set->count, counts);
-    scree_status status = scree_pair_set_reserve(state, set, total + 1, error);
-    if (!status) status = gather_arrays(work->parts, set->list, set->arrays, counts, total, error);
-    if (status) return status;
-    *set->count = total;
-    scree_pair_set_sort(set);
-    return SCREE_OK;
-}
-
-static void count_reason(scree_parts *parts, const char *what)
-{
-    size_t k = 0;
-    parts->gathers++;
-    while (k < parts->reasons && strcmp(parts->reason[k].what, what) != 0) k++;
-    if (k == SCREE_GATHER_REASONS) k--;
-    if (k == parts->reasons)
-        (void)snprintf(parts->reason[parts->reasons++].what, sizeof parts->reason->what, "%s", what);
-    parts->reason[k].count++;
-}
-
-scree_status scree_parts_gather(scree_state *state, scree_work *work, const char *what, scree_error *error)
-{
-    scree_body_array list[SCREE_BODY_ARRAYS];
-    scree_pair_set set[SCREE_PAIR_SETS];
-    size_t bodies[SCREE_PROCESSES], sets = 0;
-    const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_GATHERS);
-    scree_status status = scree_pair_sets_list(state, work, set, &sets, error);
-    for (size_t k = 0; k < sets && !status; k++) status = gather_pairs(state, work, &set[k], error);
-    const size_t total = scree_parts_count(state->count, bodies);
-    if (!status) status = scree_store_reserve_bodies(state, total, false, error);
-    if (!status) status = gather_arrays(work->parts, list, scree_body_arrays(state, list), bodies, total, error);
-    (void)scree_traffic_for(before);
-    if (status) return status;
-    state->count = total;
-    if ((status = scree_row_table_leave(state, error))) return status;
-    count_marks(state);
-    state->part = false;
-    state->changes++;
-    forget_ghosts(work);
-    work->valid = false;
-    work->clear_rows = 0;
-    count_reason(work->parts, what);
-    return SCREE_OK;
 }

@@ -1,9 +1,9 @@
 /// The sample in parts: each process has some of the bodies, and ghosts of those of others that may touch them.
 ///
-/// A state is whole or a part (state->part). Whole, it is the same in all processes: stages begin with it, measures and
-/// files read it, and each process finds the same in it. A part, it holds the bodies of this process, in the first
-/// rows; the step knows no other. What is not about bodies (walls, cells, ledger, stage) is the same in all parts,
-/// since all that it follows from is joined (comm/comm.h).
+/// A state is whole or a part (state->part). Whole, it is in process 0 alone, for what looks at all bodies at once; the
+/// others wait. A part, it holds the bodies of this process, in the first rows; the step knows no other. What is not
+/// about bodies (walls, cells, ledger, stage) is the same in all parts, since all that it follows from is joined
+/// (comm/comm.h), or comes from process 0.
 ///
 /// Which process has a body does not show in the bits. A pair of bodies of two processes is evaluated by one of them:
 /// without a shift by that of the lower number, across a face of a periodic cell by that of the body which is met by an
@@ -38,6 +38,10 @@ typedef struct scree_parts {
     uint64_t seed;     ///< not 0: bodies go to processes at random, from this seed (tests)
     uint64_t draws;
     scree_balance balance;
+    bool whole;    ///< process 0 has the whole sample, and the others keep what they have, or nothing
+    uint32_t *own; ///< then, in process 0: the ids of its own bodies
+    size_t own_count;
+    bool told_empty; ///< the run has been warned of processes without bodies
     // counted since the begin of the process
     uint64_t gathers, gathered;                       ///< states put together, and their bytes
     scree_gather_reason reason[SCREE_GATHER_REASONS]; ///< of `gathers`
@@ -58,14 +62,30 @@ typedef struct scree_parts {
 /// Cost of a part (comm/balance.h) over the mean from which on space is cut anew when a list is made.
 #define SCREE_PARTS_IMBALANCE 1.1
 
-/// From a whole state to a part, whose contacts have been saved (scree_contacts_save); the list has to be made anew.
-/// All processes call it. Errors: memory.
-scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+/// Process 0 has the whole sample, or none of the processes has a body yet.
+bool scree_parts_are_whole(const scree_work *work);
 
-/// Back to a whole state, in all processes. Contacts have been saved, or no list has been made since the state was
-/// spread; they are in the state behind it. what: for whom, in the counts. Errors: memory.
+/// Parts without a list, whose contacts have been saved: what belongs to two bodies lies with both of them. Nothing
+/// happens where there is no list. All processes call it. Errors: memory.
+scree_status scree_parts_unlist(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// From parts, whose contacts have been saved, to the whole in process 0, without a list; contacts are in the state.
+/// The others keep what they have (scree_parts_unlist) and their memory does not grow. what: for whom, in the counts.
+/// All processes call it. Errors: memory.
 scree_status scree_parts_gather(scree_state *state, scree_work *work, const char *what,
                                 scree_error *error) SCREE_MUST_USE;
+
+/// Back, when process 0 has only looked at the whole; its contacts have been saved. Errors: memory.
+scree_status scree_parts_return(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// All processes get from process 0 what is not about bodies (walls, cells, ledger, stage, laws), from the declarations
+/// of the fields; the others have no bodies then, and the same arrays. All processes call it. Errors: memory.
+scree_status scree_parts_share(scree_state *state, scree_error *error) SCREE_MUST_USE;
+
+/// Each body, and what belongs to two, is with one process, whichever: to parts, without a list. Contacts have been
+/// saved. All processes call it. Errors: memory; SCREE_ERROR_IO: an id is there twice, or something is of a body that
+/// is not there.
+scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Before a list is made anew: bodies go to the processes in whose parts they lie, with all that fields declare and
 /// what their contacts remember, which is in the state. Errors: memory.

@@ -50,7 +50,7 @@ void scree_route_close(scree_route *route)
     *route = (scree_route){0};
 }
 
-/// Element k goes to process to[k], or nowhere (negative). Returns how many come.
+/// Returns how many come.
 static size_t address(scree_route *route, const int32_t *to, size_t count)
 {
     size_t end[SCREE_PROCESSES];
@@ -73,6 +73,38 @@ static void pass(const void *out, const size_t *send, void *in, const size_t *re
         to += receive[r];
     }
     memcpy((unsigned char *)in + to * size, (const unsigned char *)out + from * size, send[here] * size);
+}
+
+scree_status scree_route_to(scree_route *route, const int32_t *to, size_t count, size_t *arriving, scree_error *error)
+{
+    *route = (scree_route){0};
+    scree_status status = open_counts(route, count, error);
+    if (!status) *arriving = address(route, to, count);
+    return status;
+}
+
+scree_status scree_route_pass(const scree_route *route, const void *own, void *in, size_t size, scree_error *error)
+{
+    unsigned char *out;
+    scree_status status = scree_allocate(&out, route->leaving + 1, size, error);
+    if (status) return status;
+    for (size_t e = 0; e < route->leaving; e++)
+        memcpy(out + e * size, (const unsigned char *)own + route->index[e] * size, size);
+    pass(out, route->send, in, route->receive, size);
+    scree_release(&out);
+    return SCREE_OK;
+}
+
+scree_status scree_route_answer(const scree_route *route, const void *in, void *own, size_t size, scree_error *error)
+{
+    unsigned char *out;
+    scree_status status = scree_allocate(&out, route->leaving + 1, size, error);
+    if (status) return status;
+    pass(in, route->receive, out, route->send, size);
+    for (size_t e = 0; e < route->leaving; e++)
+        memcpy((unsigned char *)own + route->index[e] * size, out + e * size, size);
+    scree_release(&out);
+    return SCREE_OK;
 }
 
 // ---- places among all keys ---------------------------------------------------------------------------------------
@@ -117,28 +149,18 @@ static scree_status find_places(const uint64_t *key, size_t count, size_t ids, u
                                 scree_error *error)
 {
     scree_route route = {0};
-    uint64_t *out = NULL, *in = NULL, *found = NULL;
+    uint64_t *in = NULL, *found = NULL;
     int32_t *to = NULL;
     size_t arriving = 0;
-    scree_status status = open_counts(&route, count, error);
-    if (!status) status = scree_allocate(&to, count + 1, sizeof *to, error);
-    if (!status) status = scree_allocate(&out, count + 1, sizeof *out, error);
+    scree_status status = scree_allocate(&to, count + 1, sizeof *to, error);
     for (size_t k = 0; k < count && !status; k++) to[k] = sorter(key[k], ids);
-    if (!status) {
-        arriving = address(&route, to, count);
-        for (size_t e = 0; e < route.leaving; e++) out[e] = key[route.index[e]];
-        status = scree_allocate(&in, arriving + 1, sizeof *in, error);
-    }
+    if (!status) status = scree_route_to(&route, to, count, &arriving, error);
+    if (!status) status = scree_allocate(&in, arriving + 1, sizeof *in, error);
     if (!status) status = scree_allocate(&found, arriving + 1, sizeof *found, error);
-    if (!status) {
-        pass(out, route.send, in, route.receive, sizeof *out);
-        status = sort_keys(in, arriving, found, total, error);
-    }
-    if (!status) {
-        pass(found, route.receive, out, route.send, sizeof *out);
-        for (size_t e = 0; e < route.leaving; e++) place[route.index[e]] = out[e];
-    }
-    void *const arrays[] = {&to, &out, &in, &found};
+    if (!status) status = scree_route_pass(&route, key, in, sizeof *in, error);
+    if (!status) status = sort_keys(in, arriving, found, total, error);
+    if (!status) status = scree_route_answer(&route, found, place, sizeof *found, error);
+    void *const arrays[] = {&to, &in, &found};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     scree_route_close(&route);
     return status;
@@ -188,19 +210,13 @@ scree_status scree_route_open(scree_route *route, const uint64_t *key, size_t co
 
 scree_status scree_route_move(const scree_route *route, const void *own, void *range, size_t size, scree_error *error)
 {
-    unsigned char *out = NULL, *in = NULL;
-    scree_status status = scree_allocate(&out, route->leaving + 1, size, error);
-    if (!status) status = scree_allocate(&in, route->rows + 1, size, error);
-    if (!status) {
-        const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_FILES);
-        for (size_t e = 0; e < route->leaving; e++)
-            memcpy(out + e * size, (const unsigned char *)own + route->index[e] * size, size);
-        pass(out, route->send, in, route->receive, size);
-        for (size_t e = 0; e < route->rows; e++)
-            memcpy((unsigned char *)range + route->place[e] * size, in + e * size, size);
-        (void)scree_traffic_for(before);
-    }
-    scree_release(&out);
+    unsigned char *in;
+    scree_status status = scree_allocate(&in, route->rows + 1, size, error);
+    const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_FILES);
+    if (!status) status = scree_route_pass(route, own, in, size, error);
+    for (size_t e = 0; e < route->rows && !status; e++)
+        memcpy((unsigned char *)range + route->place[e] * size, in + e * size, size);
+    (void)scree_traffic_for(before);
     scree_release(&in);
     return status;
 }

@@ -43,6 +43,18 @@ void scree_route_close(scree_route *route);
 scree_status scree_route_move(const scree_route *route, const void *own, void *range, size_t size,
                               scree_error *error) SCREE_MUST_USE;
 
+/// A route without places: own element k goes to process to[k], or nowhere (negative); *arriving: so many come. All
+/// processes call it. Errors: memory.
+scree_status scree_route_to(scree_route *route, const int32_t *to, size_t count, size_t *arriving,
+                            scree_error *error) SCREE_MUST_USE;
+
+/// Its elements of `size` bytes, in the order in which they come; answers to them go back to where they came from. All
+/// processes call each. Errors: memory.
+scree_status scree_route_pass(const scree_route *route, const void *own, void *in, size_t size,
+                              scree_error *error) SCREE_MUST_USE;
+scree_status scree_route_answer(const scree_route *route, const void *in, void *own, size_t size,
+                                scree_error *error) SCREE_MUST_USE;
+
 /// Sets of what belongs to two bodies (comm/pair_sets.h).
 enum { SCREE_RANGE_SETS = 4 };
 

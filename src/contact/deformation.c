@@ -535,6 +535,7 @@ const scree_module scree_module_deformation = {
     .pass_count = COUNT(passes),
     .in_use = in_use,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
     .alone = alone,
     .reads_moments = true,
     .work = work,

@@ -99,7 +99,8 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 {
     (void)model;
     const scree_forced_spin *forced = scree_forced(state);
-    if (!forced->active || (forced->id >= 0 && scree_state_row_of(state, (size_t)forced->id) != SCREE_NO_ROW))
+    if (!forced->active ||
+        (forced->id >= 0 && (state->part || scree_state_row_of(state, (size_t)forced->id) != SCREE_NO_ROW)))
         return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_IO, "dataset 'forced/id': %lld (accepted: the id of a body that is here)",
                            (long long)forced->id);
@@ -130,6 +131,12 @@ static scree_status settle(const scree_context *c, scree_error *error)
 
 static const scree_pass passes[] = {{SCREE_PHASE_LOADS, .run = settle}};
 
+/// Where it ends its row is looked for among all.
+static bool begins_whole(const scree_context *c)
+{
+    return scree_forced(c->state)->active != 0;
+}
+
 const scree_module scree_module_forced_spin = {
     .name = "forced_spin",
     .meaning = "a body whose spin is prescribed",
@@ -141,6 +148,7 @@ const scree_module scree_module_forced_spin = {
     .passes = passes,
     .pass_count = 1,
     .in_use = in_use,
+    .begins_whole = begins_whole,
     .turns = turns,
     .spreads = true,
 };

@@ -457,4 +457,5 @@ const scree_module scree_module_gear = {
     .begin = begin,
     .integrator = &integrator,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

@@ -189,4 +189,5 @@ const scree_module scree_module_orientation = {
     .pass_count = COUNT(passes),
     .in_use = in_use,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

@@ -467,9 +467,22 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return c;
 }
 
-static void derive(scree_state *state)
+static scree_status derive(scree_state *state, scree_error *error)
 {
+    scree_sleep *sleep = scree_sleep_of(state);
+    (void)error;
     scree_sleep_list_moving(state);
+    if (!sleep->asleep) return SCREE_OK;
+    int64_t all = (int64_t)sleep->count;
+    scree_comm_add(state, &all, 1);
+    sleep->total = (uint64_t)all;
+    return SCREE_OK;
+}
+
+/// What rests on others is handed back to them, with whom they have contacts.
+static bool begins_whole(const scree_context *c)
+{
+    return scree_sleep_of(c->state)->asleep != NULL;
 }
 
 static const scree_result columns[] = {{"awake", "1", "particles that do not sleep"}};
@@ -563,6 +576,7 @@ const scree_module scree_module_sleep = {
     .field_count = sizeof fields / sizeof *fields,
     .checksum = checksum,
     .begin = begin,
+    .begins_whole = begins_whole,
     .derive = derive,
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,

@@ -161,9 +161,11 @@ static void read_state(scree_hdf5 *file, const scree_restart_point *point, const
                        scree_state *state)
 {
     char group[64], inner[80];
+    void (*const read)(scree_hdf5 *, const char *, const char *, int, uint64_t, scree_state *) =
+        wanted->in_ranges ? scree_state_read_range : scree_state_read;
     scree_part_group(point->snapshot ? SCREE_PART_SNAPSHOT : SCREE_PART_CHECKPOINT, point->index, group, sizeof group);
     if (!point->snapshot) {
-        scree_state_read(file, group, NULL, wanted->dimension, wanted->case_checksum, state);
+        read(file, group, NULL, wanted->dimension, wanted->case_checksum, state);
         return;
     }
     scree_snapshot_state_group(point->index, inner, sizeof inner);
@@ -175,7 +177,17 @@ static void read_state(scree_hdf5 *file, const scree_restart_point *point, const
                                        "snapshot %" PRId64 " was kept without its state (scree export --archive)",
                                        point->index);
     }
-    scree_state_read(file, inner, group, wanted->dimension, wanted->case_checksum, state);
+    read(file, inner, group, wanted->dimension, wanted->case_checksum, state);
+}
+
+/// What one process has found wrong is wrong for all.
+static void agree(scree_hdf5 *file, const scree_restart_wanted *wanted)
+{
+    double damaged = file->damaged;
+    if (!wanted->in_ranges) return;
+    file->status = scree_comm_agree(file->status, file->error);
+    scree_comm_maximum(NULL, &damaged, 1);
+    file->damaged = damaged > 0;
 }
 
 scree_status scree_restart_point_read(const char *directory, const scree_restart_point *point,
@@ -192,13 +204,19 @@ scree_status scree_restart_point_read(const char *directory, const scree_restart
     scree_status status = point->part ? scree_part_path(directory, kind, point->index, path, sizeof path, error)
                                       : scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
-    if (point->part)
+    // One process looks at the checksum of the file; what the others read has checksums of its own.
+    if (point->part && wanted->in_ranges && scree_comm_rank() > 0)
+        scree_hdf5_open(&file, path, error);
+    else if (point->part)
         scree_hdf5_open_checked(&file, path, error);
     else
         scree_run_file_open(&file, path, &sound, error);
+    agree(&file, wanted);
     read_state(&file, point, wanted, state);
+    agree(&file, wanted);
     if (!file.status && wanted->usable && wanted->usable(wanted->context, state, &reason))
         scree_hdf5_refuse(&file, "%s", reason.message);
+    agree(&file, wanted);
     *another = file.damaged;
     status = scree_hdf5_close(&file);
     if (status) scree_state_destroy(state);

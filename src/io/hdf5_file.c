@@ -416,7 +416,32 @@ static bool agrees(hid_t dataset, scree_array *array)
     return same;
 }
 
-void scree_hdf5_read(scree_hdf5 *hdf5, const char *group, scree_array *array)
+/// The range of this process of all rows.
+static void take_range(scree_array *array)
+{
+    array->total = array->rows;
+    array->begin = scree_range_begin(array->total, scree_comm_rank());
+    array->rows = scree_range_begin(array->total, scree_comm_rank() + 1) - array->begin;
+}
+
+static bool read_rows(hid_t dataset, const scree_array *array)
+{
+    const hid_t type = memory_type(array->type);
+    if (array->rows == 0) return true;
+    if (array->total == 0) return H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) >= 0;
+    hsize_t rows[2];
+    const hsize_t begin[2] = {array->begin, 0};
+    const int rank = dimensions_of(array, rows);
+    const hid_t in_file = H5Dget_space(dataset), in_memory = H5Screate_simple(rank, rows, NULL);
+    const bool good = in_file >= 0 && in_memory >= 0 &&
+                      H5Sselect_hyperslab(in_file, H5S_SELECT_SET, begin, NULL, rows, NULL) >= 0 &&
+                      H5Dread(dataset, type, in_memory, in_file, H5P_DEFAULT, array->data) >= 0;
+    if (in_memory >= 0) H5Sclose(in_memory);
+    if (in_file >= 0) H5Sclose(in_file);
+    return good;
+}
+
+static void read_array(scree_hdf5 *hdf5, const char *group, scree_array *array, bool range)
 {
     array->data = NULL;
     array->rows = 0;
@@ -424,15 +449,26 @@ void scree_hdf5_read(scree_hdf5 *hdf5, const char *group, scree_array *array)
     char name[160];
     path_in_file(name, sizeof name, group, array->name);
     hid_t dataset = H5Dopen2(hdf5->file, name, H5P_DEFAULT);
+    const bool agreed = dataset >= 0 && agrees(dataset, array);
+    if (agreed && range) take_range(array);
     if (dataset < 0)
         scree_hdf5_fail(hdf5, "read", name);
-    else if (!agrees(dataset, array))
+    else if (!agreed)
         scree_hdf5_damaged(hdf5, "a dataset has another type or shape");
-    else if (!(hdf5->status = scree_array_allocate(array, hdf5->error)) && array->rows > 0 &&
-             H5Dread(dataset, memory_type(array->type), H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) < 0)
+    else if (!(hdf5->status = scree_array_allocate(array, hdf5->error)) && !read_rows(dataset, array))
         scree_hdf5_fail(hdf5, "read", name);
     if (dataset >= 0) H5Dclose(dataset);
     if (hdf5->status) scree_array_destroy(array);
+}
+
+void scree_hdf5_read(scree_hdf5 *hdf5, const char *group, scree_array *array)
+{
+    read_array(hdf5, group, array, false);
+}
+
+void scree_hdf5_read_range(scree_hdf5 *hdf5, const char *group, scree_array *array)
+{
+    read_array(hdf5, group, array, true);
 }
 
 // ---- attributes --------------------------------------------------------------------------------------------------

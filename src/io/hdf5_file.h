@@ -69,6 +69,9 @@ void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *ar
 /// Reads it back: fills array->rows from the file and allocates data. Type and components must be those of `array`.
 void scree_hdf5_read(scree_hdf5 *hdf5, const char *group, scree_array *array);
 
+/// The same of the range of rows that this process has of it (comm/ranges.h); begin and total are filled, too.
+void scree_hdf5_read_range(scree_hdf5 *hdf5, const char *group, scree_array *array);
+
 /// Attributes of the object `name` ("/" for the file). Texts are cut at `size`.
 void scree_hdf5_set_text(scree_hdf5 *hdf5, const char *name, const char *attribute, const char *text);
 void scree_hdf5_set_number(scree_hdf5 *hdf5, const char *name, const char *attribute, double value);

@@ -83,6 +83,7 @@ typedef struct scree_restart_wanted {
     int64_t snapshot; ///< its number, or one of the two below
     scree_status (*usable)(void *context, const scree_state *state, scree_error *error);
     void *context;
+    bool in_ranges; ///< all processes read it, each its range of rows (io/state_file.h), and all find the same
 } scree_restart_wanted;
 enum { SCREE_RESTART_NEWEST = -1, SCREE_RESTART_LATEST_SNAPSHOT = -2 };
 

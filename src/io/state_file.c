@@ -8,6 +8,7 @@
 
 #include "base/checksum.h"
 #include "comm/comm.h"
+#include "state/row_table.h"
 
 #include <scree/scree.h>
 
@@ -163,39 +164,43 @@ static void check_origin(scree_hdf5 *file, const char *group, const scree_state 
 }
 
 /// What lies beside the first array of contacts is there where the law needs it.
-static scree_status make_beside(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+static scree_status make_beside(scree_state *state, const scree_field *field, scree_error *error)
 {
-    void *array, *pointer = scree_field_array(state, field);
-    memcpy(&array, pointer, sizeof array);
-    return array || rows == 0 ? SCREE_OK : scree_allocate(pointer, state->contact_capacity, field->stride, error);
+    if (scree_field_is_made(state, field)) return SCREE_OK;
+    return scree_allocate(scree_field_array(state, field), state->contact_capacity, field->stride, error);
 }
 
-/// The same for contacts.
-static scree_status make_contact_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+/// The same for contacts. Where there are any all processes have the arrays.
+static scree_status make_contact_room(scree_state *state, const scree_field *field, const scree_array *array,
+                                      scree_error *error)
 {
     scree_status status = SCREE_OK;
-    if (state->contact_count == 0 && !(status = scree_state_reserve_contacts(state, rows, error)))
-        state->contact_count = rows;
-    if (!scree_field_is_shared(state, field)) return status ? status : make_beside(state, field, rows, error);
+    if (scree_array_total(array) == 0) return SCREE_OK;
+    if (state->contact_count == 0 &&
+        !(status = scree_state_reserve_contacts(state, array->rows > 0 ? array->rows : 1, error)))
+        state->contact_count = array->rows;
+    if (!scree_field_is_shared(state, field)) return status ? status : make_beside(state, field, error);
     for (int k = 0; k <= state->pair_laws && !status; k++) {
         const scree_field *declared = scree_field_of_law(state, field, k);
-        if (declared) status = make_beside(state, declared, rows, error);
+        if (declared) status = make_beside(state, declared, error);
     }
     return status;
 }
 
-/// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
-static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+/// Makes the part of `state` that `field` describes have the rows of the array, when it has none yet.
+static scree_status make_room(scree_state *state, const scree_field *field, const scree_array *array,
+                              scree_error *error)
 {
+    const size_t rows = array->rows;
     if (field->rows == SCREE_ROWS_BODIES && !state->row) return scree_state_make_bodies(state, rows, error);
-    if (field->rows == SCREE_ROWS_BODIES && field->optional && rows > 0)
+    if (field->rows == SCREE_ROWS_BODIES && field->optional && scree_array_total(array) > 0)
         return scree_state_begin_field(state, field, error);
     if (field->rows == SCREE_ROWS_GROUP && scree_field_rows_count(state, field) == 0) {
         scree_status status = scree_group_reserve(state, field->owner, field->group, rows, error);
         if (!status) scree_group_set_count(state, field->owner, field->group, rows);
         return status;
     }
-    return field->rows == SCREE_ROWS_CONTACTS ? make_contact_room(state, field, rows, error) : SCREE_OK;
+    return field->rows == SCREE_ROWS_CONTACTS ? make_contact_room(state, field, array, error) : SCREE_OK;
 }
 
 /// A snapshot has no optional field that the run did not have.
@@ -206,11 +211,23 @@ static bool is_left_out(const scree_hdf5 *file, const char *group, const scree_f
     return field->optional && field->snapshot && H5Lexists(file->file, name, H5P_DEFAULT) <= 0;
 }
 
+/// Whether its rows are with the processes that have the bodies.
+static bool is_split(const scree_field *field)
+{
+    if (field->rows == SCREE_ROWS_GROUP) return field->group->pairs;
+    return field->rows == SCREE_ROWS_BODIES || field->rows == SCREE_ROWS_CONTACTS;
+}
+
+/// A part has its range of rows that are split.
 static void read_field(scree_hdf5 *file, const char *group, const scree_field *field, scree_state *state)
 {
     scree_array array = scree_array_of_field(state, field);
-    scree_hdf5_read(file, group, &array);
-    if (!file->status) file->status = make_room(state, field, array.rows, file->error);
+    if (state->part && is_split(field))
+        scree_hdf5_read_range(file, group, &array);
+    else
+        scree_hdf5_read(file, group, &array);
+    if (field->rows == SCREE_ROWS_BODIES && !field->optional) state->total = array.total;
+    if (!file->status) file->status = make_room(state, field, &array, file->error);
     if (!file->status && array.rows != scree_field_rows_count(state, field))
         scree_hdf5_damaged(file, "arrays of one kind have different lengths");
     if (!file->status) scree_array_to_field(&array, field, state);
@@ -222,18 +239,21 @@ static void find_rows(scree_hdf5 *file, scree_state *state)
 {
     scree_error reason = {0};
     if (file->status) return;
-    scree_status status = scree_state_find_rows(state, &reason);
+    state->id_count = state->part ? state->next_id : 0;
+    scree_status status =
+        state->part ? scree_row_table_begin(state, 0, &reason) : scree_state_find_rows(state, &reason);
     if (status == SCREE_ERROR_INPUT)
         scree_hdf5_refuse(file, "dataset 'id', %s", reason.message);
     else if (status)
         file->status = scree_error_set(file->error, status, "%s", reason.message);
 }
 
-void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
-                      scree_state *state)
+static void read_state(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
+                       bool part, scree_state *state)
 {
     scree_status opened = scree_state_open(state, dimension, file->error);
     if (!file->status) file->status = opened;
+    state->part = part;
     for (int list = 0; list < SCREE_LISTS && !file->status; list++) read_laws(file, group, list, state);
     check_origin(file, group, state, case_checksum);
     scree_time_spent spent = {0};
@@ -251,4 +271,16 @@ void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, i
     if (!file->status) return;
     scree_state_destroy(state);
     state->dimension = dimension;
+}
+
+void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
+                      scree_state *state)
+{
+    read_state(file, group, shared, dimension, case_checksum, false, state);
+}
+
+void scree_state_read_range(scree_hdf5 *file, const char *group, const char *shared, int dimension,
+                            uint64_t case_checksum, scree_state *state)
+{
+    read_state(file, group, shared, dimension, case_checksum, true, state);
 }

@@ -22,4 +22,9 @@ scree_status scree_array_of_range(const scree_hdf5 *file, const scree_state *sta
 void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
                       scree_state *state);
 
+/// The same by all processes: of bodies and what belongs to two of them each reads its range of rows, and none has the
+/// others. The state is a part whose pairs lie anywhere; ids are not looked at (scree_parts_spread).
+void scree_state_read_range(scree_hdf5 *file, const char *group, const char *shared, int dimension,
+                            uint64_t case_checksum, scree_state *state);
+
 #endif

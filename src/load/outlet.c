@@ -277,6 +277,7 @@ const scree_module scree_module_outlet = {
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
     .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(columns, sample),
     .told = told,

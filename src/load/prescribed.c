@@ -279,6 +279,7 @@ const scree_module scree_module_prescribed = {
     .check = check,
     .checksum = checksum,
     .begin = scree_prescribed_begin,
+    .begins_whole = scree_prescribed_begins_whole,
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,

@@ -101,6 +101,9 @@ bool scree_prescribed_pushes(const scree_prescribed_config *own, int component);
 /// that say the same component of a body; memory.
 scree_status scree_prescribed_begin(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 
+/// Where there are such loads their selections are looked for among all bodies.
+bool scree_prescribed_begins_whole(const scree_context *context);
+
 /// prescribed_step.c
 scree_status scree_prescribed_depart(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 scree_status scree_prescribed_move(const scree_context *context, scree_error *error) SCREE_MUST_USE;

@@ -30,10 +30,10 @@ static bool acts_now(const scree_context *c, int64_t load)
     return own && scree_load_acts(c->model, c->state, own->from, own->until);
 }
 
-static bool has_any(const scree_model *model)
+bool scree_prescribed_begins_whole(const scree_context *c)
 {
-    for (int64_t i = 0; i < model->load_count; i++)
-        if (scree_prescribed_config_of(model->loads, i)) return true;
+    for (int64_t i = 0; i < c->model->load_count; i++)
+        if (scree_prescribed_config_of(c->model->loads, i)) return true;
     return false;
 }
 
@@ -133,7 +133,7 @@ scree_status scree_prescribed_begin(const scree_context *c, scree_error *error)
     scree_state *state = c->state;
     scree_prescribed *all = scree_prescribed_of(state);
     uint8_t *before = NULL;
-    if (!has_any(c->model)) return SCREE_OK;
+    if (!scree_prescribed_begins_whole(c)) return SCREE_OK;
     scree_status status = begin_fields(state, error);
     if (!status) status = scree_allocate(&before, state->count + 1, sizeof *before, error);
     if (status) return status;

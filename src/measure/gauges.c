@@ -203,6 +203,12 @@ static scree_status begin_gauge(const scree_context *c, const scree_gauge *g, in
     return scree_error_key(error, status, "measure.gauges.%lld", (long long)index);
 }
 
+/// Selections are looked for among all bodies.
+static bool begins_whole(const scree_context *c)
+{
+    return own_numbers(c->model)->gauge_count > 0;
+}
+
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     const config *own = own_numbers(c->model);
@@ -252,6 +258,7 @@ const scree_module scree_module_gauges = {
     .fields = fields,
     .field_count = COUNT(fields),
     .begin = begin,
+    .begins_whole = begins_whole,
     .columns = SCREE_RESULTS_IN_PARTS(rows, measure),
     .results = SCREE_RESULTS(rows, measure),
     .told = told,

@@ -66,12 +66,17 @@ struct scree_module {
     void (*forget)(scree_state *state, uint32_t id);
 
     /// Renews what it derives from places and angles for contacts, or from rows: when a neighbour list is made, and in
-    /// a part when it is taken. In a step its pass does so. NULL: nothing.
-    void (*derive)(scree_state *state);
+    /// a part when it is taken, by all processes together. In a step its pass does so. Errors: memory. NULL: nothing.
+    scree_status (*derive)(scree_state *state, scree_error *error);
+    /// The same of the ghosts of bodies of other processes, when their list has been made. NULL: nothing.
+    void (*derive_ghosts)(scree_state *state, const scree_work *work);
 
     /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input
     /// has its field. NULL: nothing to do.
     scree_status (*begin)(const scree_context *context, scree_error *error);
+    /// Whether it looks at the whole sample where a stage begins, which is put together in process 0 then, and only
+    /// there: a kind of stage or a boundary where it is chosen, others where they have this or a begin. NULL: always.
+    bool (*begins_whole)(const scree_context *context);
 
     // ---- passes: what it does in a step ----
     const scree_pass *passes;
@@ -110,6 +115,9 @@ struct scree_module {
     /// that do not apply are left out. NULL: none.
     scree_status (*conclude)(const struct scree_conclusion *run, scree_error *error);
 };
+
+/// For begins_whole of those that begin with the bodies that are here, as they work in a step.
+bool scree_begins_in_parts(const scree_context *context);
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;
 #define SCREE_MODULE_SLOT(name)    SCREE_SLOT_##name,

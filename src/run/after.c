@@ -7,6 +7,7 @@
 #include "run/after.h"
 
 #include "base/memory.h"
+#include "comm/comm.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
 #include "io/series.h"
@@ -76,7 +77,8 @@ static scree_status read_end(scree_simulation *s, const scree_case *first, int64
                                          .case_checksum = checksum,
                                          .snapshot = SCREE_RESTART_LATEST_SNAPSHOT,
                                          .usable = usable,
-                                         .context = &end};
+                                         .context = &end,
+                                         .in_ranges = scree_comm_size() > 1};
     if (status) return status;
     scree_state_destroy(&s->state);
     status = scree_restart_find(other, &wanted, used, &s->state, &reason);

@@ -80,17 +80,26 @@ size_t scree_columns_find(const scree_columns *columns, const char *name)
     return k;
 }
 
-scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, double *value,
-                                   scree_error *error)
+scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, bool in_parts,
+                                   double *value, scree_error *error)
 {
     scree_status status = SCREE_OK;
     value += SCREE_SAMPLE_COUNT;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
         const scree_results *own = &scree_modules[m]->columns;
         for (size_t index = 0; index < columns->times[m] && !status; index++, value += own->count)
-            status = own->measure(context, index, value, error);
+            if (own->in_parts == in_parts) status = own->measure(context, index, value, error);
     }
     return status;
+}
+
+bool scree_columns_look_at_whole(const scree_config *config)
+{
+    size_t times[SCREE_MODULE_COUNT];
+    bool some = false;
+    (void)count_columns(config, times);
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) some = some || (times[m] > 0 && !scree_modules[m]->columns.in_parts);
+    return some;
 }
 
 bool scree_columns_want_whole(const scree_columns *columns, char *names, size_t size)

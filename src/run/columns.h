@@ -19,12 +19,16 @@ scree_status scree_columns_create(const scree_config *config, scree_columns *col
                                   scree_error *error) SCREE_MUST_USE;
 void scree_columns_destroy(scree_columns *columns);
 
+/// Whether modules have columns in this case and need the whole sample for them.
+bool scree_columns_look_at_whole(const scree_config *config);
+
 /// Number of a column; `count` when there is none of this name.
 size_t scree_columns_find(const scree_columns *columns, const char *name);
 
-/// Fills the values of the modules' columns; those of run/sample.c are there.
-scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, double *value,
-                                   scree_error *error) SCREE_MUST_USE;
+/// Fills the values of those of the modules' columns that are measured in parts, or of the others; those of
+/// run/sample.c are there.
+scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, bool in_parts,
+                                   double *value, scree_error *error) SCREE_MUST_USE;
 
 /// Names of the modules that have columns in this case and need the whole sample for them, in `names` of `size` bytes;
 /// false: there are none, all measure in parts.

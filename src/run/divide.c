@@ -6,9 +6,12 @@
 /// bodies of others.
 ///
 /// Time. Steps are divided; a ghost costs as much as a body, and the fullest part counts, which may have
-/// SCREE_PARTS_IMBALANCE times the mean before space is cut anew. Preparation is not divided, nor is what is done with
-/// the whole sample: a list of its pairs at each sample, the sample itself, files and figures. Messages are left out:
-/// they depend on the network.
+/// SCREE_PARTS_IMBALANCE times the mean before space is cut anew. Preparation is not divided, nor is what process 0
+/// does with the whole sample: a list of its pairs where it looks at it, samples, files and figures. Messages are left
+/// out: they depend on the network.
+///
+/// Memory. Process 0 has the whole sample where it prepares it and where somebody looks at it; another one has its
+/// part, the fullest one here, and ghosts.
 ///
 /// Limits: other size ratios, open piles and thin layers have other ghosts; few processes have less (a part of two has
 /// neighbours on two sides).
@@ -75,8 +78,8 @@ scree_status scree_case_divide(const scree_case *c, const scree_case_summary *su
                               .stepping = steps / all * (fullest * bodies + ghosts)};
     if (processes > 1) {
         rank->lists = summary->lists;
-        rank->memory[0] = scree_rank_memory_expect(&model, ghosts, true);
-        rank->memory[1] = scree_rank_memory_expect(&model, ghosts, false);
+        for (int k = 0; k < 2; k++)
+            rank->memory[k] = scree_rank_memory_expect(&model, fullest * bodies, ghosts, k == 0);
     }
     rank->output = summary->output + summary->figures;
     rank->seconds = rank->preparation + rank->stepping + rank->lists + rank->output;

@@ -27,7 +27,7 @@ typedef struct expense {
     double paraview_file, paraview_body;
     double step_bytes, cell_bytes, figure_bytes; ///< a body
     double live_bytes;                           ///< a body, that a step goes through
-    double rank_bytes;                           ///< a body of the whole, in a process that does not write
+    double rank_bytes;                           ///< a body of its part, in a process that does not write
 } expense;
 static const expense expenses[2] = {
     {7e-3, 1e-6, 6e-3, 2e-6, 5e-3, 1.2e-6, 1100, 930, 6200, 319, 720},
@@ -162,16 +162,18 @@ static double snapshot_time(const scree_model *model, const scree_probe *probe, 
     return e->file + e->body * count + *cells + paraview;
 }
 
-void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_run_cost *cost)
+void scree_run_expect(const scree_model *model, const scree_probe *probe, bool looks_at_samples, scree_run_cost *cost)
 {
     double count = (double)model->count, scale = count / probe->count, cells, charts;
+    const bool at_snapshots = model->output.paraview || (model->measure.cells && !model->periodic);
     double snapshot = snapshot_time(model, probe, scale, &cells);
     *cost = (scree_run_cost){.output = START + END_OF_CELLS * cells, .memory = scree_memory_expect(model)};
     for (int64_t k = 0; k < model->stage_count; k++) {
         scree_stage_cost stage = scree_stage_expect(model, k, probe->collision);
         cost->steps += stage.steps;
         cost->output += stage.samples * (probe->sample * scale + ROW) + stage.snapshots * snapshot;
-        cost->lists += stage.samples * probe->rebuild * scale;
+        cost->lists +=
+            ((looks_at_samples ? stage.samples : 0) + (at_snapshots ? stage.snapshots : 0)) * probe->rebuild * scale;
     }
     cost->preparation = probe->preparation * scale;
     cost->stepping = cost->steps * step_time(model, probe, scale) + cost->preparation;
@@ -194,10 +196,10 @@ double scree_memory_expect(const scree_model *model)
     return PROGRAM_BYTES + fmin(snapshots * SNAPSHOT_BYTES, GATHER_BYTES) + figures + body * (double)model->count;
 }
 
-double scree_rank_memory_expect(const scree_model *model, double ghosts, bool writes)
+double scree_rank_memory_expect(const scree_model *model, double bodies, double ghosts, bool root)
 {
     const expense *e = &expenses[model->dimension == 3];
-    const double count = (double)model->count, known = e->step_bytes * ghosts;
-    if (writes) return scree_memory_expect(model) + MPI_WRITER_BYTES + GATHERED_BYTES * count + known;
-    return PROGRAM_BYTES + MPI_BYTES + e->rank_bytes * count + known;
+    const double known = e->step_bytes * ghosts;
+    if (root) return scree_memory_expect(model) + MPI_WRITER_BYTES + GATHERED_BYTES * (double)model->count + known;
+    return PROGRAM_BYTES + MPI_BYTES + e->rank_bytes * bodies + known;
 }

@@ -8,7 +8,9 @@
 #include "base/memory.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
+#include "comm/ranges.h"
 #include "io/folder_lock.h"
+#include "io/snapshot.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
@@ -160,47 +162,138 @@ void scree_ranks_fail(const scree_run_options *options, const scree_error *error
 
 // ---- whole and part ----------------------------------------------------------------------------------------------
 
-/// What follows from the rows.
-static void derive(scree_state *state)
+/// Nothing here stays as long as the whole was. Some of what was freed lies between what is still there.
+static void release_scratch(scree_simulation *s)
 {
-    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->derive) scree_modules[m]->derive(state);
-}
-
-scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
-{
-    scree_state *state = &s->state;
-    if (scree_comm_size() == 1 || state->part) return SCREE_OK;
-    scree_status status = check_stage(s, error);
-    if (!status && s->work.valid) status = scree_contacts_save(state, &s->work, error);
-    if (!status && !s->work.parts && !all_have(scree_state_checksum(&s->stage_model, state)))
-        status = scree_error_set(error, SCREE_ERROR_INPUT,
-                                 "the processes have made different samples of the same case: their machines or "
-                                 "libraries differ");
-    derive(state);
-    if (!status) status = scree_parts_spread(state, &s->work, error);
-    derive(state);
-    // Nothing here stays as long as the whole was. Some of what was freed lies between what is still there.
     scree_neighbours_release(&s->work);
     scree_contact_scratch_destroy(&s->work);
     scree_contact_table_destroy(&s->table);
     scree_memory_trim();
+}
+
+static bool is_whole_elsewhere(const scree_simulation *s)
+{
+    return scree_comm_size() > 1 && scree_parts_are_whole(&s->work);
+}
+
+bool scree_ranks_acts(const scree_simulation *s)
+{
+    return !is_whole_elsewhere(s) || scree_comm_rank() == 0;
+}
+
+/// Once in a run, unless particles are still to come.
+static void warn_of_empty(scree_simulation *s)
+{
+    int64_t empty = s->state.count == 0;
+    if (s->work.parts->told_empty || s->model.source_count > 0) return;
+    scree_comm_add(&s->state, &empty, 1);
+    s->work.parts->told_empty = empty > 0;
+    if (empty > 0 && !s->warning[0])
+        (void)snprintf(s->warning, sizeof s->warning, "%lld of %d processes have no particle: fewer do as well",
+                       (long long)empty, scree_comm_size());
+}
+
+scree_status scree_ranks_place(scree_simulation *s, scree_error *error)
+{
+    scree_status status = scree_parts_spread(&s->state, &s->work, error);
+    if (!status) warn_of_empty(s);
+    release_scratch(s);
+    return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+scree_status scree_ranks_spread(scree_simulation *s, scree_error *error)
+{
+    if (!is_whole_elsewhere(s)) return SCREE_OK;
+    scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
+    if (!status) status = scree_parts_share(&s->state, error);
+    if (!status) status = check_stage(s, error);
+    return status ? status : scree_ranks_place(s, error);
+}
+
+scree_status scree_ranks_return(scree_simulation *s, scree_error *error)
+{
+    if (!is_whole_elsewhere(s)) return SCREE_OK;
+    const bool root = scree_comm_rank() == 0;
+    scree_status status = root && s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
+    if (!status) status = scree_parts_return(&s->state, &s->work, error);
+    if (root) release_scratch(s);
+    return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+scree_status scree_ranks_unlist(scree_simulation *s, scree_error *error)
+{
+    if (!s->state.part) return SCREE_OK;
+    scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
+    if (!status) status = scree_parts_unlist(&s->state, &s->work, error);
+    s->table.count = 0;
     return status;
 }
 
 scree_status scree_ranks_gather(scree_simulation *s, const char *what, scree_error *error)
 {
-    if (!s->state.part) return SCREE_OK;
-    scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
+    if (scree_comm_size() == 1 || is_whole_elsewhere(s)) return SCREE_OK;
+    scree_status status = scree_ranks_unlist(s, error);
     if (!status) status = scree_parts_gather(&s->state, &s->work, what, error);
-    return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+    if (status || scree_comm_rank() > 0) return status;
+    return scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
 }
 
 scree_status scree_ranks_gather_contacts(scree_simulation *s, const char *what, scree_error *error)
 {
-    if (!s->state.part) return SCREE_OK;
+    if (scree_comm_size() == 1 || is_whole_elsewhere(s)) return SCREE_OK;
     scree_status status = scree_ranks_gather(s, what, error);
-    return status ? status : scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+    if (status || scree_comm_rank() > 0) return status;
+    return scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+}
+
+/// Whether a module has something to do where the stage begins, and looks at the whole sample then.
+static bool looks_at_whole(const scree_simulation *s, const scree_module *module, const scree_context *context)
+{
+    const bool steps = !s->stage->instant;
+    if (module->stage && module->stage != s->stage) return false;
+    if (module->boundary && (module->boundary != s->boundary || !steps)) return false;
+    if (!module->begins_whole) return module->stage || module->boundary || (module->begin && steps);
+    return module->begins_whole(context);
+}
+
+scree_status scree_ranks_gather_for_begin(scree_simulation *s, scree_error *error)
+{
+    const scree_context context = scree_step_context(s);
+    char what[80];
+    for (int m = 0; m < SCREE_MODULE_COUNT && s->state.part; m++) {
+        if (!looks_at_whole(s, scree_modules[m], &context)) continue;
+        (void)snprintf(what, sizeof what, "begins of stages by %s", scree_modules[m]->name);
+        return scree_ranks_gather(s, what, error);
+    }
+    return SCREE_OK;
+}
+
+scree_status scree_ranks_begun(scree_simulation *s, scree_error *error)
+{
+    if (scree_comm_size() == 1) return SCREE_OK;
+    if (is_whole_elsewhere(s)) return scree_ranks_spread(s, error);
+    scree_status status = check_stage(s, error);
+    // Ghosts have room for the arrays that there were when their list was made.
+    if (!status && s->work.valid) status = scree_contacts_save(&s->state, &s->work, error);
+    scree_neighbours_invalidate(&s->work);
+    s->table.count = 0;
+    return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+scree_status scree_ranks_save_contacts(scree_simulation *s, scree_error *error)
+{
+    return s->state.part && !s->work.valid ? SCREE_OK : scree_contacts_save(&s->state, &s->work, error);
+}
+
+scree_status scree_ranks_checkpoint(scree_simulation *s, const char *directory, uint64_t case_checksum,
+                                    scree_error *error)
+{
+    scree_ranges ranges = {0};
+    scree_status status = scree_ranks_save_contacts(s, error);
+    if (!status) status = scree_ranges_open(&s->state, &s->work, &ranges, error);
+    if (!status) status = scree_checkpoint_write_ranges(directory, &s->state, &ranges, case_checksum, error);
+    scree_ranges_close(&ranges);
+    return status;
 }
 
 /// Samples, and for whom whole states were put together.
@@ -214,7 +307,8 @@ static void log_gathers(const scree_simulation *s, const scree_parts *parts, scr
         used += more > 0 ? (size_t)more : 0;
     }
     scree_log_write(log, SCREE_LOG_INFO,
-                    "samples: %llu taken in parts, %llu of whole states; whole states were put together for: %s",
+                    "samples: %llu taken in parts, %llu of whole states; whole states were put together, in process 0 "
+                    "alone, for: %s",
                     (unsigned long long)s->samples_in_parts, (unsigned long long)s->samples_of_wholes,
                     used > 0 ? text : "nothing");
 }

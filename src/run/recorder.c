@@ -80,30 +80,12 @@ void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
     recorder->clocked[1] = processor;
 }
 
-/// Those of a part that has no list yet are in it.
-static scree_status save_contacts(scree_simulation *s, scree_error *error)
-{
-    return s->state.part && !s->work.valid ? SCREE_OK : scree_contacts_save(&s->state, &s->work, error);
-}
-
-/// By all processes together, each a range of the rows.
-static scree_status write_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
-{
-    scree_ranges ranges;
-    scree_status status = scree_ranges_open(&s->state, &s->work, &ranges, error);
-    if (!status)
-        status = scree_checkpoint_write_ranges(recorder->directory, &s->state, &ranges, recorder->case_checksum, error);
-    scree_ranges_close(&ranges);
-    return status;
-}
-
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_recorder_clock(recorder, s);
-    scree_status status = save_contacts(s, error);
     // A checkpoint counts rows, so they are on the disk before it is.
-    if (!status && recorder->writes) status = scree_series_sync(&recorder->series, error);
-    if (!status) status = write_checkpoint(recorder, s, error);
+    scree_status status = recorder->writes ? scree_series_sync(&recorder->series, error) : SCREE_OK;
+    if (!status) status = scree_ranks_checkpoint(s, recorder->directory, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();
     recorder->checkpoint_evaluations = s->state.evaluations;
     return status;
@@ -167,7 +149,7 @@ static scree_status write_picture(scree_recorder *recorder, scree_simulation *s,
     s->state.stage.snapshots++;
     if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, info, error);
     if (!status && s->model.output.paraview) status = scree_ranks_gather_contacts(s, "ParaView files", error);
-    if (!status && s->model.output.paraview && recorder->writes)
+    if (!status && s->model.output.paraview && scree_ranks_acts(s))
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, info, error);
     scree_cells_destroy(&cells);
     scree_wall_triangles_destroy(&walls);
@@ -187,7 +169,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .case_checksum = recorder->case_checksum};
     const bool together = sound && !wants_cells(s, sound);
     scree_status status = sound && !together ? scree_ranks_gather_contacts(s, "cells of snapshots", error) : SCREE_OK;
-    if (!status && sound) status = save_contacts(s, error);
+    if (!status && sound) status = scree_ranks_save_contacts(s, error);
     if (!status && together) status = scree_ranges_open(&s->state, &s->work, &ranges, error);
     if (together) info.ranges = &ranges;
     if (!status && (together || recorder->writes))
@@ -195,7 +177,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     else
         s->state.stage.snapshots++;
     scree_ranges_close(&ranges);
-    return status;
+    return status || !sound ? status : scree_ranks_return(s, error);
 }
 
 scree_status scree_recorder_last_look(scree_recorder *recorder, scree_simulation *s, scree_error *error)

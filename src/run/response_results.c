@@ -156,6 +156,12 @@ static scree_status check_element(const numbers *n, const scree_state *state, sc
 }
 
 /// The load presses on a grain at the top when it begins to act.
+/// Its selection and its element are looked for among all bodies.
+static bool begins_whole(const scree_context *c)
+{
+    return numbers_of(c->model) != NULL;
+}
+
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     const numbers *n = numbers_of(c->model);
@@ -557,6 +563,7 @@ const scree_module scree_module_response = {
     .numbers_size = sizeof(numbers),
     .resolve = resolve,
     .begin = begin,
+    .begins_whole = begins_whole,
     .results = SCREE_RESULTS(results, NULL),
     .conclude = conclude,
 };

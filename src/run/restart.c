@@ -1,9 +1,11 @@
 /// Which of the states in a run directory can be gone on from.
 #include "run/restart.h"
 
+#include "comm/comm.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
 #include "io/series.h"
+#include "run/ranks.h"
 #include "state/check.h"
 
 #include <errno.h>
@@ -86,8 +88,11 @@ scree_status scree_restart_read(scree_simulation *s, const char *directory, cons
                                 scree_restart_point *used, scree_notes *notes, scree_error *error)
 {
     wanted_run run = {s, directory};
-    scree_restart_wanted wanted = {
-        .dimension = s->model.dimension, .case_checksum = checksum, .usable = usable, .context = &run};
+    scree_restart_wanted wanted = {.dimension = s->model.dimension,
+                                   .case_checksum = checksum,
+                                   .usable = usable,
+                                   .context = &run,
+                                   .in_ranges = scree_comm_size() > 1};
     scree_status status = parse_from(from, &wanted.snapshot, error);
     if (status) return status;
     scree_error note = {0};
@@ -117,11 +122,11 @@ scree_status scree_restart_rewind(scree_simulation *s, const char *directory, ui
 {
     scree_kept kept = {.snapshots = s->state.stage.snapshots, .last_checkpoint = used->index};
     scree_status status = SCREE_OK;
+    // From now on a restart without --from begins here, too; checkpoints of what is dropped go.
+    if (used->snapshot) status = scree_ranks_checkpoint(s, directory, checksum, error);
+    if (status || !scree_ranks_write()) return status;
     if (used->snapshot) {
-        // From now on a restart without --from begins here, too; checkpoints of what is dropped go.
-        status = scree_contacts_save(&s->state, &s->work, error);
-        if (!status) status = scree_checkpoint_write(directory, &s->state, checksum, error);
-        if (!status) status = newest_checkpoint(directory, &kept.first_checkpoint, error);
+        status = newest_checkpoint(directory, &kept.first_checkpoint, error);
         kept.last_checkpoint = kept.first_checkpoint;
     }
     return status ? status : scree_run_file_rewind(directory, s->model.name, &kept, notes, error);

@@ -25,7 +25,8 @@ scree_status scree_restart_read(scree_simulation *s, const char *directory, cons
                                 scree_restart_point *used, scree_notes *notes, scree_error *error) SCREE_MUST_USE;
 
 /// Takes the folder back to `used`: what came after it is dropped, what is damaged is set aside with a note. A snapshot
-/// becomes the newest checkpoint first. Rows are cut when the series are opened. Errors: SCREE_ERROR_IO, memory.
+/// becomes the newest checkpoint first. Rows are cut when the series are opened. All processes call it. Errors:
+/// SCREE_ERROR_IO, memory.
 scree_status scree_restart_rewind(scree_simulation *s, const char *directory, uint64_t checksum,
                                   const scree_restart_point *used, scree_notes *notes,
                                   scree_error *error) SCREE_MUST_USE;

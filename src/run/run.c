@@ -254,12 +254,13 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
 static scree_status take_up(scree_simulation *s, const char *directory, uint64_t checksum,
                             const scree_restart_point *point, scree_notes *notes, scree_error *error)
 {
-    scree_status status = SCREE_OK;
+    scree_status status = s->state.part ? scree_ranks_place(s, error) : SCREE_OK;
     // Samples, checkpoints and the checksum may read the contacts before the first step.
-    if (s->state.count > 0) status = scree_neighbours_refresh(&s->model, &s->state, &s->work, error);
+    if (!status && scree_state_total(&s->state) > 0)
+        status = scree_neighbours_refresh(&s->model, &s->state, &s->work, error);
     if (!status && s->state.stage.counter >= 0) status = scree_stage_enter(s, true, error);
     status = scree_comm_agree(status, error);
-    if (!status && scree_ranks_write()) status = scree_restart_rewind(s, directory, checksum, point, notes, error);
+    if (!status) status = scree_restart_rewind(s, directory, checksum, point, notes, error);
     return scree_comm_agree(status, error);
 }
 

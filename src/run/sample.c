@@ -152,7 +152,10 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_volume(s, value);
     sample_energy(s, value);
     sample_quasistatic(s, value);
-    if ((status = scree_columns_measure(&s->columns, &context, value, error))) return status;
+    status = scree_columns_measure(&s->columns, &context, true, value, error);
+    // Those of a part that need the whole have been measured before.
+    if (!status && !s->state.part) status = scree_columns_measure(&s->columns, &context, false, value, error);
+    if (status) return status;
     remember_velocities(s);
     s->has_sample = true;
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);

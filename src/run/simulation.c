@@ -108,40 +108,57 @@ static scree_status begin_modules(scree_simulation *s, scree_error *error)
     return status;
 }
 
-scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error)
+/// Whether the stage that the state is in is there; its kind, boundary and model.
+static bool choose_stage(scree_simulation *s)
 {
-    scree_stage_state *stage = &s->state.stage;
-    if (stage->index >= s->model.stage_count) {
+    if (s->state.stage.index >= s->model.stage_count) {
         s->stage = NULL;
-        return SCREE_OK;
+        return false;
     }
     const scree_config_stage *config = scree_stage_config(s);
     s->stage = scree_modules[config->kind]->stage;
-    s->boundary = scree_model_boundary_of(&s->model, stage->index);
+    s->boundary = scree_model_boundary_of(&s->model, s->state.stage.index);
     double before[3];
     memcpy(before, s->stage_model.gravity, sizeof before);
     // What contacts exert between two stages is that of the stage before.
     if (!s->stage->instant) s->stage_model = scree_model_of_stage(&s->model, config);
     memcpy(s->stage_model.gravity, before, sizeof before);
-    if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
-        stage->first_time = scree_state_time(&s->state);
-        stage->first_step = s->state.step;
-        stage->first_evaluations = s->state.evaluations;
-        stage->counter = 0;
+    return true;
+}
+
+/// Of parts all do it together, of the whole process 0 alone.
+static scree_status begin_stage(scree_simulation *s, scree_error *error)
+{
+    scree_stage_state *stage = &s->state.stage;
+    stage->first_time = scree_state_time(&s->state);
+    stage->first_step = s->state.step;
+    stage->first_evaluations = s->state.evaluations;
+    stage->counter = 0;
+    scree_forced_spin_end(&s->state);
+    scree_gravity_enter(&s->stage_model, &s->state, scree_state_total(&s->state) > 0);
+    scree_status status = s->stage->begin ? s->stage->begin(s, error) : SCREE_OK;
+    if (status) return status;
+    if (!s->stage->instant)
+        status = change_boundary(s, error);
+    else if (scree_modules[scree_stage_config(s)->kind]->numbers->places || s->state.evaluations == 0)
+        status = open_ledger(s, error);
+    if (!status && !s->stage->instant) status = begin_modules(s, error);
+    return status;
+}
+
+scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error)
+{
+    if (!choose_stage(s)) return SCREE_OK;
+    if (!restart || s->state.stage.counter == SCREE_STAGE_NOT_BEGUN) {
         s->state.spent.stage = s->state.spent.processor = 0;
-        scree_forced_spin_end(&s->state);
-        scree_gravity_enter(&s->stage_model, &s->state, s->state.count > 0);
-        scree_status status = s->stage->begin ? s->stage->begin(s, error) : SCREE_OK;
-        if (status) return status;
-        if (!s->stage->instant)
-            status = change_boundary(s, error);
-        else if (scree_modules[config->kind]->numbers->places || s->state.evaluations == 0)
-            status = open_ledger(s, error);
-        if (!status && !s->stage->instant) status = begin_modules(s, error);
+        scree_status status = scree_ranks_gather_for_begin(s, error);
+        if (!status && scree_ranks_acts(s)) status = begin_stage(s, error);
+        status = scree_comm_agree(status, error);
+        if (!status) status = scree_ranks_begun(s, error);
         if (status) return status;
         if (!s->stage->instant) scree_stability_ask(s, true);
     }
-    if (restart) scree_gravity_enter(&s->stage_model, &s->state, false);
+    scree_gravity_enter(&s->stage_model, &s->state, false);
     if (s->stage->plan) s->stage->plan(s);
     scree_step_compile(s);
     return SCREE_OK;
@@ -159,32 +176,51 @@ static void leave_stage(scree_simulation *s)
     s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;
 }
 
-/// In parts, unless a column needs the whole.
+/// The columns that are not measured in parts, by process 0.
+static scree_status measure_whole(scree_simulation *s, const char *names, scree_error *error)
+{
+    char what[80];
+    (void)snprintf(what, sizeof what, "samples of %s", names);
+    scree_status status = scree_ranks_gather_contacts(s, what, error);
+    const scree_context context = scree_step_context(s);
+    if (!status && scree_ranks_acts(s)) status = scree_columns_measure(&s->columns, &context, false, s->sample, error);
+    status = scree_comm_agree(status, error);
+    scree_comm_share(s->sample, s->columns.count * sizeof *s->sample);
+    return status ? status : scree_ranks_return(s, error);
+}
+
+/// In parts, but for columns that need the whole.
 static scree_status take_sample(scree_simulation *s, scree_error *error)
 {
-    char names[64] = "", what[80];
+    char names[64] = "";
     scree_status status = SCREE_OK;
-    if (s->state.part && scree_columns_want_whole(&s->columns, names, sizeof names)) {
-        (void)snprintf(what, sizeof what, "samples of %s", names);
-        status = scree_ranks_gather(s, what, error);
-    }
-    if (s->state.part)
+    const bool whole = s->state.part && scree_columns_want_whole(&s->columns, names, sizeof names);
+    if (whole) status = measure_whole(s, names, error);
+    if (s->state.part && !whole)
         s->samples_in_parts++;
     else
         s->samples_of_wholes++;
     return status ? status : scree_sample_take(s, error);
 }
 
+/// What contacts there are behind a stage that takes no steps; where the ledger was opened it is known.
+static scree_status table_contacts(scree_simulation *s, scree_error *error)
+{
+    if (!s->state.part && s->state.evaluations == 0) return SCREE_OK;
+    scree_status status = scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+    if (!status) status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+    return status;
+}
+
 /// Begins the next stage; a loading stage is sampled at zero strain.
 static scree_status begin_next(scree_simulation *s, scree_error *error)
 {
-    scree_status status = scree_ranks_gather(s, "begins of stages", error);
-    if (!status) status = scree_stage_enter(s, false, error);
+    scree_status status = scree_stage_enter(s, false, error);
     if (status) return status;
     if (!s->stage) return SCREE_OK;
     if (s->stage->instant) {
         end_stage(s);
-        return SCREE_OK;
+        return table_contacts(s, error);
     }
     if (!s->stage->loading) return SCREE_OK;
     s->sampled = true;
@@ -194,13 +230,11 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
 /// A step by parts; what stops it is told of the whole state.
 static scree_status take_step(scree_simulation *s, scree_error *error)
 {
-    scree_status status = scree_ranks_spread(s, error);
-    if (!status) status = scree_step(s, error);
-    if (status != SCREE_ERROR_GUARD || !s->state.part) return status;
-    scree_error second;
-    const uint32_t flags = s->work.flags;
-    if (scree_ranks_gather(s, "guards", flags ? error : &second)) return flags ? SCREE_ERROR_IO : status;
-    return flags ? scree_guard_step(s, error) : status;
+    scree_status status = scree_step(s, error);
+    if (status != SCREE_ERROR_GUARD || !s->state.part || !s->work.flags) return status;
+    status = scree_ranks_gather(s, "guards", error);
+    if (!status) status = scree_ranks_acts(s) ? scree_guard_step(s, error) : SCREE_ERROR_GUARD;
+    return scree_comm_agree(status, error);
 }
 
 scree_status scree_simulation_step(scree_simulation *s, scree_error *error)

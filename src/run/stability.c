@@ -221,22 +221,38 @@ static scree_status judge(scree_simulation *s, checked *c, scree_error *error)
     return status;
 }
 
+/// Of a whole sample.
+static scree_status check(scree_simulation *s, memory *all, scree_error *error)
+{
+    checked c = {.step = 0};
+    const bool told = own_numbers(s)->told && s->state.step == s->state.stage.first_step;
+    scree_status status = open_check(s, &c, error);
+    if (!status && told) status = find_limits(&c, &all->step, &all->softness, error);
+    if (!status) status = judge(s, &c, error);
+    all->contacts = c.specimen.contact_count;
+    all->bonds = scree_bonds_standing(&s->state);
+    scree_specimen_destroy(&c.specimen);
+    return status;
+}
+
+/// By process 0, for all.
+static scree_status check_whole(scree_simulation *s, memory *all, scree_error *error)
+{
+    scree_error second;
+    scree_status status = scree_ranks_gather(s, "limits of stability", error);
+    if (!status && scree_ranks_acts(s)) status = check(s, all, error);
+    status = scree_comm_agree(status, error);
+    scree_comm_share(all, sizeof *all);
+    const scree_status back = scree_ranks_return(s, status ? &second : error);
+    return status ? status : back;
+}
+
 scree_status scree_stability_check(scree_simulation *s, scree_error *error)
 {
     memory *all = memory_of(&s->state);
-    checked c = {.step = 0};
     scree_status status = SCREE_OK;
     if (!all->asked) return SCREE_OK;
-    if (matters(s)) {
-        if ((status = scree_ranks_gather(s, "limits of stability", error))) return status;
-        const bool told = own_numbers(s)->told && s->state.step == s->state.stage.first_step;
-        status = open_check(s, &c, error);
-        if (!status && told) status = find_limits(&c, &all->step, &all->softness, error);
-        if (!status) status = judge(s, &c, error);
-        all->contacts = c.specimen.contact_count;
-        all->bonds = scree_bonds_standing(&s->state);
-        scree_specimen_destroy(&c.specimen);
-    }
+    if (matters(s)) status = check_whole(s, all, error);
     // What stops the run stays asked for: it stops again.
     if (!status) all->asked = 0;
     return status;

@@ -163,4 +163,5 @@ const scree_module scree_module_compress = {
     .numbers = &numbers,
     .stage = &stage_face,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

@@ -211,4 +211,5 @@ const scree_module scree_module_confine = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

@@ -221,4 +221,5 @@ const scree_module scree_module_deform = {
     .numbers = &numbers,
     .stage = &stage_face,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

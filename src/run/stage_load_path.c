@@ -536,6 +536,7 @@ const scree_module scree_module_load_path = {
     .numbers = &numbers,
     .stage = &stage_face,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
     .state_size = sizeof(progress),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,

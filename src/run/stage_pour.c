@@ -229,6 +229,7 @@ const scree_module scree_module_pour = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
     .numbers = &numbers,
     .stage = &stage_face,
 };

@@ -4,6 +4,7 @@
 ///
 /// The first such stage looks whether the bodies are where the walls of the case leave room: none may be closer to a
 /// wall than its radius less the overlap that the guard allows.
+#include "comm/comm.h"
 #include "load/gravity.h"
 #include "module/key_rows.h"
 #include "run/loading.h"
@@ -45,30 +46,51 @@ static const config *own_config(const scree_simulation *s)
     return scree_stage_config(s)->own;
 }
 
-/// Of polygons that lie on a wall the bounding circle may reach far into it: what lies in it for certain is refused,
-/// and a guard stops what lies too deep after all.
+/// Whether a body has room beside a surface. Of polygons that lie on a wall the bounding circle may reach far into it:
+/// what lies in it for certain has none, and a guard stops what lies too deep after all.
+static bool has_room(const scree_simulation *s, int surface, size_t row)
+{
+    scree_vector place;
+    scree_body_position(&s->state, row, place);
+    const double radius = scree_body_bounding_radius(&s->state, row);
+    return scree_surface_clearance(s->work.wall_set, surface, place, radius) >=
+           scree_body_inner_radius(&s->state, row) * (1 - s->model.overlap_limit);
+}
+
+static scree_status refuse(const scree_simulation *s, int surface, size_t row, scree_error *error)
+{
+    const scree_config_wall *wall = s->work.wall_set->surface[surface].config;
+    const double radius = scree_body_bounding_radius(&s->state, row);
+    scree_vector place;
+    scree_body_position(&s->state, row, place);
+    const double clearance = scree_surface_clearance(s->work.wall_set, surface, place, radius);
+    scree_error_set(error, SCREE_ERROR_INPUT,
+                    "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre is %.4g m "
+                    "from it; move the wall, or change the box of the prepare stage (it begins at the origin)",
+                    s->state.id[row], place[0], place[1], place[2], radius, clearance < 0 ? "behind" : "in", wall->name,
+                    fabs(clearance));
+    scree_error_key(error, SCREE_ERROR_INPUT, "walls.%td", wall - s->c->config.walls);
+    if (error) scree_case_locate(s->c, error);
+    return SCREE_ERROR_INPUT;
+}
+
+/// The first body of all, by walls and ids, that has no room is told by the process that has it.
 static scree_status check_room(const scree_simulation *s, scree_error *error)
 {
-    const scree_wall_set *wall_set = s->work.wall_set;
     const scree_state *state = &s->state;
-    for (int k = 0; wall_set && k < wall_set->count; k++) {
-        size_t next = 0;
-        for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
-            scree_vector place;
-            scree_body_position(state, row, place);
-            double radius = scree_body_bounding_radius(state, row);
-            double clearance = scree_surface_clearance(wall_set, k, place, radius);
-            if (clearance >= scree_body_inner_radius(state, row) * (1 - s->model.overlap_limit)) continue;
-            const scree_config_wall *wall = wall_set->surface[k].config;
-            scree_error_set(error, SCREE_ERROR_INPUT,
-                            "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre is %.4g m "
-                            "from it; move the wall, or change the box of the prepare stage (it begins at the origin)",
-                            state->id[row], place[0], place[1], place[2], radius, clearance < 0 ? "behind" : "in",
-                            wall->name, fabs(clearance));
-            scree_error_key(error, SCREE_ERROR_INPUT, "walls.%td", wall - s->c->config.walls);
-            if (error) scree_case_locate(s->c, error);
-            return SCREE_ERROR_INPUT;
+    for (int k = 0; s->work.wall_set && k < s->work.wall_set->count; k++) {
+        size_t found = 0;
+        double own = -INFINITY;
+        for (size_t row = 0; row < state->count; row++) {
+            if (-(double)state->id[row] < own || has_room(s, k, row)) continue;
+            own = -(double)state->id[row];
+            found = row;
         }
+        double first = own;
+        scree_comm_maximum(state, &first, 1);
+        if (isinf(first)) continue;
+        const scree_status status = first == own ? refuse(s, k, found, error) : SCREE_OK;
+        return state->part ? scree_comm_agree(status, error) : status;
     }
     return SCREE_OK;
 }
@@ -150,4 +172,5 @@ const scree_module scree_module_relax = {
     .numbers = &numbers,
     .stage = &stage_face,
     .spreads = true,
+    .begins_whole = scree_begins_in_parts,
 };

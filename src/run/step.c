@@ -177,13 +177,14 @@ static const char *name_of(const scree_pass *pass)
     return "a boundary";
 }
 
-/// A pass that wants the whole sample in this step has it.
+/// A pass that wants the whole sample in this step has it, in process 0 alone.
 static scree_status run_pass(scree_simulation *s, const scree_pass *pass, const scree_context *c, scree_error *error)
 {
     bool whole = false;
     scree_status status = pass->whole && s->state.part ? pass->whole(c, &whole, error) : SCREE_OK;
     if (!status && whole) status = scree_ranks_gather(s, name_of(pass), error);
-    if (!status) status = pass->run(c, error);
+    if (!status && (!whole || scree_ranks_acts(s))) status = pass->run(c, error);
+    if (whole) status = scree_comm_agree(status, error);
     return !status && whole ? scree_ranks_spread(s, error) : status;
 }
 

@@ -300,6 +300,7 @@ const scree_module scree_module_stress_path = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .begin = begin,
+    .begins_whole = scree_begins_in_parts,
     .columns = SCREE_RESULTS_IN_PARTS(columns, sample),
     .results = SCREE_RESULTS(results, NULL),
     .conclude = conclude,

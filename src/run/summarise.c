@@ -44,7 +44,7 @@ static scree_status estimate(const scree_case *c, const scree_model *model, scre
         return status;
     }
     if (status) probe = (scree_probe){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-    scree_run_expect(model, &probe, &cost);
+    scree_run_expect(model, &probe, scree_columns_look_at_whole(&c->config), &cost);
     summary->steps = cost.steps;
     summary->stepping = cost.stepping;
     summary->output = cost.output;

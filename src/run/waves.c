@@ -347,11 +347,18 @@ static scree_status record(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
+/// A receiver is the nearest of all bodies, and layers are between the outermost ones.
+static bool begins_whole(const scree_context *c)
+{
+    const numbers *own = scree_wave_numbers_of(c->model);
+    return own && c->state->stage.index == own->stage;
+}
+
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     const numbers *own = scree_wave_numbers_of(c->model);
     memory *m = scree_waves_of(c->state);
-    if (!own || c->state->stage.index != own->stage) return SCREE_OK;
+    if (!begins_whole(c)) return SCREE_OK;
     m->record_count = m->value_count = m->receiver_count = 0;
     m->begun = c->state->evaluations;
     scree_status status =
@@ -395,6 +402,7 @@ const scree_module scree_module_waves = {
     .check = check,
     .keeps = keeps,
     .begin = begin,
+    .begins_whole = begins_whole,
     .passes = passes,
     .pass_count = COUNT(passes),
     .in_use = in_use,

@@ -160,6 +160,7 @@ static scree_status find_pairs(scree_state *state, scree_work *work, scree_held_
     for (size_t k = 0; k < list->count && !status; k++) {
         scree_held_pair *pair = &buffer->pair[kept];
         list->member[kept] = list->member[k];
+        list->member[kept].added = 0; // before this list, whatever another process has counted
         status = find_rows(state, work, &away, (uint32_t)kept, pair, error);
         kept += !status && pair->first != SCREE_NO_ROW && pair->second != SCREE_NO_ROW;
     }

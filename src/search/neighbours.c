@@ -435,8 +435,9 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     work->ghosts.away = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
-    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->derive) scree_modules[m]->derive(state);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (scree_modules[m]->derive) status = scree_modules[m]->derive(state, error);
+    if (status) return status;
     scree_cell_grid_fit(&search->grid, state, work->skin);
     if (!search->grid.finite) {
         work->flags |= SCREE_FLAG_NAN;
@@ -450,6 +451,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     scree_fast_find(&search->fast, state, work->skin);
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (scree_modules[m]->derive_ghosts) scree_modules[m]->derive_ghosts(state, work);
     if (!status) status = scree_ghosts_search(state, work, &search->ghosts, error);
     // Behind the others, with those of ghosts.
     if (!status)

@@ -329,6 +329,28 @@ void scree_polygons_pose(scree_state *state)
     pose_them(state, true);
 }
 
+/// In a part, before ghosts are told.
+static scree_status take_heading(scree_state *state, scree_error *error)
+{
+    if (!state->part || !scree_polygons_of(state)->of) return SCREE_OK;
+    scree_status status = scree_state_begin_field(state, &fields[HEADING], error);
+    if (!status) memcpy(scree_polygons_of(state)->heading, state->angle, state->count * sizeof *state->angle);
+    return status;
+}
+
+static scree_status derive(scree_state *state, scree_error *error)
+{
+    scree_polygons_pose(state);
+    return take_heading(state, error);
+}
+
+static void derive_ghosts(scree_state *state, const scree_work *work)
+{
+    const own *p = scree_polygons_of(state);
+    const size_t rows = scree_row_count(state, work);
+    for (size_t row = rows - work->ghosts.away; row < rows && p->of; row++) turn_corners(p, row, p->heading[row]);
+}
+
 // ---- the module --------------------------------------------------------------------------------------------------
 
 /// There may be some later in the stage.
@@ -340,23 +362,16 @@ static bool in_use(const scree_context *c)
     return some;
 }
 
-/// In a part, before ghosts are told.
 static scree_status tell_heading(const scree_context *c, scree_error *error)
 {
-    scree_state *state = c->state;
-    if (!state->part || !scree_polygons_of(state)->of) return SCREE_OK;
-    scree_status status = scree_state_begin_field(state, &fields[HEADING], error);
-    if (!status) memcpy(scree_polygons_of(state)->heading, state->angle, state->count * sizeof *state->angle);
-    return status;
+    return take_heading(c->state, error);
 }
 
 static scree_status pose(const scree_context *c, scree_error *error)
 {
-    const own *p = scree_polygons_of(c->state);
-    const size_t rows = scree_row_count(c->state, c->work);
     (void)error;
     pose_them(c->state, false);
-    for (size_t row = rows - c->work->ghosts.away; row < rows && p->of; row++) turn_corners(p, row, p->heading[row]);
+    derive_ghosts(c->state, c->work);
     return SCREE_OK;
 }
 
@@ -429,7 +444,8 @@ const scree_module scree_module_polygon = {
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
     .spreads = true,
-    .derive = scree_polygons_pose,
+    .derive = derive,
+    .derive_ghosts = derive_ghosts,
     .shape = &(const scree_shape){.dimension = 2,
                                   .elsewhere = "sphere",
                                   .only_here = "polygons are bodies in the plane: dimension: 2",

@@ -142,7 +142,8 @@ static scree_status check_field(const scree_state *state, const scree_model *mod
         const unsigned char *at = shared ? scree_field_get(state, declared, row) : first + row * field->stride;
         for (int k = 0; k < components; k++, at += scree_field_size(declared->type)) {
             double value = number_of(declared->type, at);
-            bool gone = range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&
+            // Of a part the others may be with other processes.
+            bool gone = !state->part && range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&
                         scree_state_row_of(state, (size_t)value) == SCREE_NO_ROW;
             if (is_inside(range, most, value) && !gone) continue;
             char accepted[96];
@@ -172,7 +173,7 @@ static int law_of(const scree_state *state, const scree_model *model, const scre
 /// What a contact remembers is of the law that it has.
 static scree_status check_law(const scree_state *state, const scree_model *model, size_t k, scree_error *error)
 {
-    const int law = state->pair_laws > 0 ? law_of(state, model, &state->contact[k]) : -1;
+    const int law = state->pair_laws > 0 && !state->part ? law_of(state, model, &state->contact[k]) : -1;
     if (law < 0 || law == state->contact_law[k]) return SCREE_OK;
     return scree_error_set(
         error, SCREE_ERROR_IO,
@@ -191,7 +192,7 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
             return refuse_contact(state, k, "is no plate", error);
         if (element && model->wall_count == 0)
             return refuse_contact(state, k, "is of a wall that the case does not have", error);
-        bool gone = scree_state_row_of(state, c->second) == SCREE_NO_ROW;
+        bool gone = !state->part && scree_state_row_of(state, c->second) == SCREE_NO_ROW;
         if (!plate && !element && (gone || c->second < c->first))
             return refuse_contact(state, k, "is no body, or one with a lower id", error);
         scree_status status = check_law(state, model, k, error);
@@ -221,7 +222,7 @@ static scree_status check_frame(const scree_state *state, const scree_model *mod
 scree_status scree_state_check(const scree_state *state, const scree_model *model, scree_error *error)
 {
     // Before the first birth there is none.
-    if (state->count == 0 && model->source_count == 0)
+    if (scree_state_total(state) == 0 && model->source_count == 0)
         return scree_error_set(error, SCREE_ERROR_IO, "dataset 'position': there is no body");
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < scree_field_total() && !status; k++)
