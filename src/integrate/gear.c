@@ -31,9 +31,8 @@
 /// Order: 5 for places and velocities where forces are smooth (tests/unit/test_gear.c). Cost: one pass more than
 /// velocity_verlet, 280 bytes a body, and contacts one at a time: kernels in lanes know no lead.
 #include "base/checksum.h"
-#include "base/integer_sum.h"
 #include "case/check.h"
-#include "comm/comm.h"
+#include "comm/guessed_sum.h"
 #include "integrate/kick.h"
 #include "module/boundary.h"
 #include "module/key_rows.h"
@@ -53,7 +52,8 @@ typedef struct gear_row {
 } gear_row;
 
 typedef struct own {
-    gear_row *row; ///< a body
+    gear_row *row;  ///< a body
+    double largest; ///< J, magnitude of the energies that were summed last: what the next ones are guessed from
 } own;
 
 static own *own_state(const scree_state *state)
@@ -332,10 +332,10 @@ static void second(const scree_model *model, scree_state *state, scree_work *wor
     task.moving = scree_moving_rows(state, &task.count);
     const gear_row *row = own_state(state)->row;
     scree_thread_pool_run(&work->pool, scree_work_shares(work), share_second, &task);
-    scree_integer_sum added = {0};
-    while (scree_comm_sum_next(state, &added, 1))
-        for (size_t k = 0; k < state->count; k++) scree_integer_sum_add(&added, row[k].begun ? row[k].pending : 0);
-    state->ledger.scheme += scree_integer_sum_total(&added);
+    scree_guessed_sum added = {{0}, {0}};
+    while (scree_guessed_sum_next(state, &added, 1, &own_state(state)->largest))
+        for (size_t k = 0; k < state->count; k++) scree_guessed_sum_add(&added, row[k].begun ? row[k].pending : 0);
+    state->ledger.scheme += scree_guessed_sum_total(&added);
 }
 
 static void velocity_at(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,

@@ -13,10 +13,9 @@
 /// with a boundary that imposes velocities, which would be braked as well.
 #include "base/checksum.h"
 #include "base/fixed.h"
-#include "base/integer_sum.h"
 #include "base/wrapping.h"
 #include "case/check.h"
-#include "comm/comm.h"
+#include "comm/guessed_sum.h"
 #include "load/load.h"
 #include "module/key_rows.h"
 
@@ -33,8 +32,9 @@ typedef struct config {
 
 /// State of the module.
 typedef struct damping {
-    double work;    ///< J, on the bodies
-    double pending; ///< J, of the forces at n in the half step that comes
+    double work;       ///< J, on the bodies
+    double pending;    ///< J, of the forces at n in the half step that comes
+    double largest[2]; ///< W, magnitudes of the powers that were summed last: what the next ones are guessed from
 } damping;
 
 static damping *own_state(const scree_state *state)
@@ -108,7 +108,7 @@ static void apply(scree_state *state, size_t row, const turn *t)
 }
 
 /// Power [W] of the damping at v(n - 1/2) and at v(n + 1/2), to which the next kick leads.
-static void add_power(const scree_context *c, size_t row, const turn *t, scree_integer_sum power[2])
+static void add_power(const scree_context *c, size_t row, const turn *t, scree_guessed_sum power[2])
 {
     const scree_state *state = c->state;
     double kick = c->work->next_kick, mass = state->row[row].mass, inertia = scree_body_inertia(state, row);
@@ -120,8 +120,8 @@ static void add_power(const scree_context *c, size_t row, const turn *t, scree_i
         after += push * (t->velocity[i] + kick * (t->force[i] + push) / mass) +
                  twist * (t->spin[i] + kick * (t->torque[i] + twist) / inertia);
     }
-    scree_integer_sum_add(&power[0], before);
-    scree_integer_sum_add(&power[1], after);
+    scree_guessed_sum_add(&power[0], before);
+    scree_guessed_sum_add(&power[1], after);
 }
 
 static void accumulate(scree_state *state, double work)
@@ -138,23 +138,26 @@ static scree_status follow(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-/// The terms are looked at twice (base/integer_sum.h); the forces are applied in the second pass.
+/// All powers are known before the forces are applied.
 static scree_status damp(const scree_context *c, scree_error *error)
 {
     scree_state *state = c->state;
     const config *own = first_config(c->model);
-    scree_integer_sum power[2] = {0};
+    scree_guessed_sum power[2] = {0};
     (void)error;
     if (!scree_load_acts(c->model, state, own->from, own->until)) return SCREE_OK;
-    while (scree_comm_sum_next(state, power, 2))
+    while (scree_guessed_sum_next(state, power, 2, own_state(state)->largest))
         for (size_t row = 0; row < state->count; row++) {
             const turn t = plan_body(c, own, row);
             add_power(c, row, &t, power);
-            if (power->pass == SCREE_INTEGER_SUM_ADDS) apply(state, row, &t);
         }
+    for (size_t row = 0; row < state->count; row++) {
+        const turn t = plan_body(c, own, row);
+        apply(state, row, &t);
+    }
     double now = state->step_size, next = 2 * c->work->next_kick - now;
-    accumulate(state, 0.5 * now * scree_integer_sum_total(&power[0]));
-    own_state(state)->pending = 0.5 * next * scree_integer_sum_total(&power[1]);
+    accumulate(state, 0.5 * now * scree_guessed_sum_total(&power[0]));
+    own_state(state)->pending = 0.5 * next * scree_guessed_sum_total(&power[1]);
     return SCREE_OK;
 }
 

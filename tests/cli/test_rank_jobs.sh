@@ -102,7 +102,8 @@ more "$(count ghosts)" 1 'ghosts of a process'
 checks=$((checks + 1))
 awk "BEGIN { ratio = $(count bytes) / (2 * 72 * $(count ghosts)); exit !(ratio >= 1 && ratio < 1.3) }" || complain "$(count bytes) bytes for $(count ghosts) ghosts of each of two"
 more "$(count bytes_ratio)" 1 'bytes over what ghosts need'
-more "$(count reductions)" 5 'reductions a step'
+more "$(count reductions)" 1.9 'reductions a step'
+more 3.5 "$(count reductions)" 'reductions a step'
 more "$(count imbalance)" 0.9999 'balance'
 more 1 "$(count waiting)" 'share of waiting'
 more "$(count waiting)" 0 'share of waiting'

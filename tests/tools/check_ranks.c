@@ -1,8 +1,9 @@
 /// check_ranks SEED: terms of very different size, dealt out at random among the processes of mpirun (some get none),
 /// give the bits that one process finds in all of them; rows that are dealt out in the same way come to those which
 /// write them, in the order of their keys. Prints "ranks N" once; each difference is a line, and status 1.
-#include "comm/comm.h"
+#include "comm/guessed_sum.h"
 #include "comm/ranges.h"
+#include "comm/traffic.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -123,6 +124,29 @@ static void check_reduction(const double *own, size_t count, bool hidden)
     same("lists left in a reduction", (double)reduction.parts, 0);
 }
 
+/// A sum that is guessed: from nothing, from itself, from another one; how many reductions it takes.
+static void check_guess(const double *all, const double *own, size_t count)
+{
+    double largest[2] = {0};
+    const double factor[] = {1, 1, 1e7, 1e7};
+    for (int time = 0; time < 4; time++) {
+        scree_guessed_sum sum[2] = {{{0}, {0}}};
+        scree_integer_sum whole = {0};
+        const uint64_t before = scree_traffic_of(SCREE_TRAFFIC_REDUCTIONS).calls;
+        while (scree_guessed_sum_next(NULL, sum, 2, largest))
+            for (size_t k = 0; k < count; k++) {
+                scree_guessed_sum_add(&sum[0], factor[time] * own[k]);
+                scree_guessed_sum_add(&sum[1], own[k]);
+            }
+        while (scree_integer_sum_next(&whole, 1))
+            for (size_t k = 0; k < TERMS; k++) scree_integer_sum_add(&whole, factor[time] * all[k]);
+        same("a sum that was guessed", scree_guessed_sum_total(&sum[0]), scree_integer_sum_total(&whole));
+        same("one beside it", scree_guessed_sum_total(&sum[1]), scree_integer_sum_of(all, TERMS));
+        const uint64_t calls = scree_traffic_of(SCREE_TRAFFIC_REDUCTIONS).calls - before;
+        same("reductions of a guess", (double)calls, scree_comm_size() > 1 ? 2 - time % 2 : 0);
+    }
+}
+
 /// Of `count` rows with keys that ascend with holes each process has some, in no order, and one that it does not write.
 static void check_route(uint64_t *seed, size_t count)
 {
@@ -161,12 +185,18 @@ int main(int argc, char **argv)
     check_others(all, own, count);
     check_reduction(own, count, false);
     check_reduction(own, count, true);
+    check_guess(all, own, count);
     check_route(&seed, TERMS);
     check_route(&seed, 3);
     check_route(&seed, 0);
     // One term that is not finite, of one process, spoils the sum of all.
     if (count > 0 && scree_comm_rank() == 0) own[0] = NAN;
     same("a sum with NaN", scree_comm_sum_of(NULL, own, count), NAN);
+    scree_guessed_sum guessed = {{0}, {0}};
+    double largest = 0;
+    while (scree_guessed_sum_next(NULL, &guessed, 1, &largest))
+        for (size_t k = 0; k < count; k++) scree_guessed_sum_add(&guessed, own[k]);
+    same("a guessed sum with NaN", scree_guessed_sum_total(&guessed), NAN);
     scree_comm_leave();
     return failures > 0;
 }
