@@ -4,9 +4,10 @@
 /// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
 /// when a state is spread, and anew when the fullest part has SCREE_PARTS_IMBALANCE times the mean. Between two lists a
 /// body stays where it is, however it moves. For tests bodies go anywhere, at every list, from a seed.
+#include "comm/parts.h"
+
 #include "base/checksum.h"
 #include "comm/comm.h"
-#include "comm/parts_own.h"
 #include "state/periodic.h"
 #include "state/row_table.h"
 
