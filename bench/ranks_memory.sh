@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Memory of each process while the steps of a stage run, whose samples are taken in parts: spheres on a lattice above a
 # plate that shakes, on several numbers of processes. Resident memory (VmRSS) is read while rows of series.csv are written,
-# behind the preparation of the whole. Usage: bench/ranks_memory.sh build-mpi/scree [SPHERES [PROCESSES...]]
+# behind the preparation of the whole, which process 0 does. Usage: bench/ranks_memory.sh build-mpi/scree [SPHERES [PROCESSES...]]
 set -u
 program=$(realpath "${1:?the program, built with MPI}")
 count=${2:-200000}
@@ -49,5 +49,5 @@ for n in "${processes[@]}"; do
         sleep 0.2
     done
     wait $job || { echo "the run on $n processes failed" >&2; exit 1; }
-    echo "| $n | $((count / n)) | $(sort -n <<<"$seen" | head -n 1) | $(sort -n <<<"$seen" | tail -n 1) | $(grep -o 'put together for: .*' out/log.txt | cut -d: -f2) |"
+    echo "| $n | $((count / n)) | $(sort -n <<<"$seen" | head -n 1) | $(sort -n <<<"$seen" | tail -n 1) | $(grep -o 'process 0 alone, for: .*' out/log.txt | cut -d: -f2) |"
 done

@@ -5,9 +5,10 @@
 /// when a state is spread, by bodies, and anew when the part that costs most (comm/balance.h) has SCREE_PARTS_IMBALANCE
 /// times the mean. Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every
 /// list, from a seed.
+#include "comm/parts.h"
+
 #include "base/checksum.h"
 #include "comm/comm.h"
-#include "comm/parts_own.h"
 #include "state/periodic.h"
 #include "state/row_table.h"
 

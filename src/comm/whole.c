@@ -7,7 +7,7 @@
 /// begin with the latter.
 #include "comm/comm.h"
 #include "comm/directory.h"
-#include "comm/parts_own.h"
+#include "comm/parts.h"
 #include "comm/traffic.h"
 #include "state/row_table.h"
 

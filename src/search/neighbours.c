@@ -416,6 +416,21 @@ static scree_status take_histories(scree_state *state, scree_work *work, scree_e
     return status;
 }
 
+/// Modules derive what they need of rows, then of ghosts.
+static scree_status derive(scree_state *state, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (scree_modules[m]->derive) status = scree_modules[m]->derive(state, error);
+    return status;
+}
+
+static void derive_ghosts(scree_state *state, const scree_work *work)
+{
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->derive_ghosts) scree_modules[m]->derive_ghosts(state, work);
+}
+
 static scree_status rebuild(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
@@ -435,9 +450,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     work->ghosts.away = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
-    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
-        if (scree_modules[m]->derive) status = scree_modules[m]->derive(state, error);
-    if (status) return status;
+    if ((status = derive(state, error))) return status;
     scree_cell_grid_fit(&search->grid, state, work->skin);
     if (!search->grid.finite) {
         work->flags |= SCREE_FLAG_NAN;
@@ -451,8 +464,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     scree_fast_find(&search->fast, state, work->skin);
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
-    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
-        if (scree_modules[m]->derive_ghosts) scree_modules[m]->derive_ghosts(state, work);
+    if (!status) derive_ghosts(state, work);
     if (!status) status = scree_ghosts_search(state, work, &search->ghosts, error);
     // Behind the others, with those of ghosts.
     if (!status)

@@ -456,7 +456,7 @@ stages:
 $rest
 EOF
 # Who asked for whole states, as log.txt has it; samples taken in parts.
-wholes() { grep -o 'whole states were put together for: .*' "$1/log.txt"; }
+wholes() { grep -o 'whole states were put together, in process 0 alone, for: .*' "$1/log.txt"; }
 in_parts() { "$scree" get "$1" processes_samples_in_parts; }
 for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
@@ -467,11 +467,17 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
             cmp -s "many/$(basename "$table")" "$table" || complain "$(basename "$table") of $name on $ranks processes differs"
         done
         grep -q "process 0 of $ranks: " many/log.txt || complain "$ranks processes did not compute $name together"
-        # All samples but the first of a stage are taken in parts, unless there is a pile.
+        # Samples are taken in parts, unless there is a pile.
         case $name in
         pour | rain | heap | rounded | nap) wholes many | grep -q 'samples of pile ([1-9]' || complain "$name: who asked for whole states is not told: $(wholes many)" ;;
         *) [ "$(in_parts many)" -ge 20 ] || complain "$name: $(in_parts many) samples were taken in parts"
            wholes many | grep -q 'samples of' && complain "$name: whole states for samples: $(wholes many)" ;;
+        esac
+        # Stages begin in parts, unless there is a boundary to be found, or a selection.
+        case $name in
+        shear | drum | path | lid | cell | rain | gear | gel) wholes many | grep -q 'begins of stages' && complain "$name: whole states for begins: $(wholes many)" ;;
+        layer) wholes many | grep -q 'begins of stages by plates ([1-9]' || complain "$name: whose begin needs the whole is not told: $(wholes many)" ;;
+        sides | core) wholes many | grep -q 'begins of stages by pressure ([1-9]' || complain "$name: whose begin needs the whole is not told: $(wholes many)" ;;
         esac
     done
     expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
