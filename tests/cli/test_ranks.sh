@@ -467,6 +467,10 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
             cmp -s "many/$(basename "$table")" "$table" || complain "$(basename "$table") of $name on $ranks processes differs"
         done
         grep -q "process 0 of $ranks: " many/log.txt || complain "$ranks processes did not compute $name together"
+        # Two reductions a step, of a bed of spheres as of a periodic cell; what samples and lists ask comes on top.
+        case $name in shear | layer | drum)
+            checks=$((checks + 1)); awk -v count="$("$scree" get many processes_reductions)" 'BEGIN { exit !(count >= 2 && count < 2.6) }' || complain "$name asks all of $ranks processes $("$scree" get many processes_reductions) times a step" ;;
+        esac
         # Samples are taken in parts, unless there is a pile.
         case $name in
         pour | rain | heap | rounded | nap) wholes many | grep -q 'samples of pile ([1-9]' || complain "$name: who asked for whole states is not told: $(wholes many)" ;;
