@@ -376,13 +376,14 @@ static void measure_motion(const scree_model *model, scree_state *state, scree_w
     sum_motions(state, work, maps, quantum, &sum);
     scree_reduction_add_wide(&work->moved.together, sum.value, 9);
     scree_moved_join(state, work, scree_neighbours_are_due(state, work));
-    work->motion_quantum = motion_quantum(model, state);
-    if (work->motion_quantum == quantum) {
+    const double due = motion_quantum(model, state);
+    if (state->part) work->motion_quantum = due;
+    if (due == quantum) {
         scree_wide_total(&sum, 1, quantum, scree_cell(state)->motion);
         return;
     }
-    sum_motions(state, work, maps, work->motion_quantum, &sum);
-    scree_comm_wide_total(state, &sum, 1, work->motion_quantum, scree_cell(state)->motion);
+    sum_motions(state, work, maps, due, &sum);
+    scree_comm_wide_total(state, &sum, 1, due, scree_cell(state)->motion);
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.

@@ -4,6 +4,7 @@
 #include "comm/comm.h"
 #include "comm/parts.h"
 #include "state/fields.h"
+#include "state/store.h"
 
 #include <string.h>
 
@@ -94,6 +95,8 @@ static scree_status empty(scree_state *state, scree_error *error)
     const int dimension = state->dimension;
     scree_state_destroy(state);
     scree_status status = scree_state_create(state, dimension, 0, error);
+    // With room, so that an array that is there is no null pointer: whether one is there steers what all do.
+    if (!status) status = scree_store_reserve_bodies(state, 0, false, error);
     state->spent = spent;
     state->changes = changes + 1;
     return status;

@@ -154,7 +154,8 @@ static void total_of_bodies(const scree_state *state, scree_work *work, scree_vi
 {
     virial_task task;
     task.state = state;
-    task.bound = work->virial_bound = power_above(virial->largest);
+    task.bound = power_above(virial->largest);
+    if (state->part) work->virial_bound = task.bound;
     const double quantum = state->force_quantum * task.bound;
     if (task.bound == virial->bound) {
         scree_wide_total(&virial->bodies, 1, quantum, product);

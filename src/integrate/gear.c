@@ -69,6 +69,8 @@ static const scree_field fields[] = {
          "predicted derivatives of the position, k = 2 to 5, times step_size^k / k!: those of x, of y, of z"),
     BODY(turn, SCREE_FIELD_DOUBLE, 3 * (ORDER - 1), "rad", "the same of the angles about x, y, z"),
     BODY(begun, SCREE_FIELD_UINT8, 1, "1", "0: the derivatives are not there yet", SCREE_RANGE(0, 1)),
+    SCREE_FIELD_ONE(gear, own, largest, "gear/largest", SCREE_FIELD_DOUBLE, 1, "J",
+                    "magnitude of the energies that were summed last", .role = SCREE_FIELD_DERIVED),
 };
 
 // ---- one body ------------------------------------------------------------------------------------------------------

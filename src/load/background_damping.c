@@ -233,6 +233,8 @@ static const scree_field fields[] = {
                     "work of the background damping on the bodies"),
     SCREE_FIELD_ONE(background_damping, damping, pending, "background_damping/pending", SCREE_FIELD_DOUBLE, 1, "J",
                     "its work in the first half of the step that comes"),
+    SCREE_FIELD_ONE(background_damping, damping, largest, "background_damping/largest", SCREE_FIELD_DOUBLE, 2, "W",
+                    "magnitudes of the powers that were summed last", .role = SCREE_FIELD_DERIVED),
 };
 
 static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, .run = follow}, {SCREE_PHASE_RESULTANTS, .run = damp}};
