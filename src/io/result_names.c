@@ -39,7 +39,7 @@ const scree_result scree_run_results[] = {
     {"processes_waiting", "1", "share of the wall time that a process spends in messages and reductions"},
     {"processes_files", "1", "snapshots and checkpoints that all processes have written together"},
     {"processes_files_from_parts", "1", "those of them for which no process had the whole state"},
-    {"processes_gathers", "1", "times that the whole state was put together in every process"},
+    {"processes_gathers", "1", "times that the whole state was put together in process 0"},
     {"processes_samples_in_parts", "1", "rows of series.csv for which it was not"},
     // its preparation
     {"confine_friction", "1", "friction of the last confine stage"},
