@@ -512,7 +512,7 @@ for balance in counts time; do
     same "$(checksum silt-$balance)" "$(checksum silt-one)" "silt in parts by $balance"
 done
 checks=$((checks + 1)); grep -o 'costs most at a list at most .* times;' silt-counts/log.txt |
-    awk '{exit !($7 < 1.3 && $(NF - 1) > 3 && $(NF - 1) < 100)}' || complain "balance of silt: $(grep 'costs most' silt-counts/log.txt)"
+    awk '{exit !($8 < 1.3 && $(NF - 1) > 3 && $(NF - 1) < 100)}' || complain "balance of silt: $(grep 'costs most' silt-counts/log.txt)"
 expect 2 "'tme' is not one of its values" on 2 silt.yaml -o no --balance tme
 
 # --- more processes than bodies in some of them
