@@ -40,7 +40,7 @@ grep -qE '^#   particles +37.5, and about [1-9][0-9.]* of others' <<<"$output" |
 estimate() { "$scree" check shear.yaml --set particles.count=1000000 --ranks "$2" | awk -v name="$1" '
     on && $2 == name { print $3 * ($4 ~ /^(GB|min)/ ? 1000 : $4 ~ /^h/ ? 60000 : $4 ~ /^kB/ ? 1e-3 : 1); exit } /^# processes/ { on = 1 }'; }
 more() { checks=$((checks + 1)); awk "BEGIN { exit !($1 > $2) }" || complain "$3: $1 is not more than $2"; }
-more "$(estimate memory 8)" "0.5 * $(estimate memory 1)" 'memory of 8 processes: each prepares the whole sample'
+more "$(estimate memory 1)" "4 * $(estimate memory 8)" 'memory of one process over that of a part of 8'
 more "$(estimate sends 8)" "1.5 * $(estimate sends 64)" 'bytes of 8 and of 64 processes'
 more "3 * $(estimate sends 64)" "$(estimate sends 8)" 'bytes go with the surface'
 for wrong in 0 -1 5000 two; do expect 2 "^scree check: --ranks: .*from 1 to 4096" "$scree" check shear.yaml --ranks=$wrong; done
