@@ -45,12 +45,12 @@ static int64_t count_cost(const scree_state *state, const scree_work *work)
 
 int64_t scree_balance_cost(const scree_balance *balance, const scree_state *state, const scree_work *work)
 {
-    return balance->by_time ? (int64_t)(worked(balance) * NANOSECONDS) : count_cost(state, work);
+    return work->parts_by_time ? (int64_t)(worked(balance) * NANOSECONDS) : count_cost(state, work);
 }
 
-double scree_balance_slack(const scree_balance *balance)
+double scree_balance_slack(const scree_work *work)
 {
-    return balance->by_time ? SHORTEST * NANOSECONDS : 2 * BODY;
+    return work->parts_by_time ? SHORTEST * NANOSECONDS : 2 * BODY;
 }
 
 /// Half of the cost to each of the two, all of it to one whose partner is not here.
@@ -78,7 +78,7 @@ scree_status scree_balance_weights(const scree_balance *balance, const scree_sta
         weigh_pairs(state, pairs, section->begin, section->touching_end, TOUCHING, *weight);
         weigh_pairs(state, pairs, section->touching_end, section->end, NEAR, *weight);
     }
-    if (balance->by_time) {
+    if (work->parts_by_time) {
         const int64_t cost = count_cost(state, work);
         const float rate = cost > 0 ? (float)(worked(balance) * NANOSECONDS / (double)cost) : 1;
         for (size_t row = 0; row < state->count; row++) (*weight)[row] *= rate;

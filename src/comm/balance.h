@@ -12,7 +12,6 @@
 #include "state/work.h"
 
 typedef struct scree_balance {
-    bool by_time;
     double begun, waited; ///< s, at the last cut: of the clock, and in calls of the transport until then
 } scree_balance;
 
@@ -23,7 +22,7 @@ void scree_balance_begin(scree_balance *balance);
 int64_t scree_balance_cost(const scree_balance *balance, const scree_state *state, const scree_work *work);
 
 /// More than this beside SCREE_PARTS_IMBALANCE times the mean is worth a cut: two bodies, or a tenth of a second.
-double scree_balance_slack(const scree_balance *balance);
+double scree_balance_slack(const scree_work *work);
 
 /// Weight of each row, *weight [count], to be released; of a list that holds. Errors: memory.
 scree_status scree_balance_weights(const scree_balance *balance, const scree_state *state, const scree_work *work,

@@ -60,6 +60,13 @@ void scree_pair_set_ids(const scree_pair_set *set, size_t k, uint32_t id[2])
     memcpy(id, *(unsigned char **)set->list[0].pointer + k * set->list[0].size, 2 * sizeof *id);
 }
 
+bool scree_pair_set_counts(const scree_state *state, const scree_pair_set *set, size_t k)
+{
+    uint32_t id[2];
+    scree_pair_set_ids(set, k, id);
+    return scree_state_row_of(state, id[0]) != SCREE_NO_ROW;
+}
+
 static int compare(const void *a, const void *b)
 {
     uint32_t p[2], q[2];

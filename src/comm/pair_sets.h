@@ -27,6 +27,10 @@ scree_status scree_pair_set_reserve(scree_state *state, const scree_pair_set *se
 /// Ids of the bodies of element `k`; of a wall the second is what contacts have of it.
 void scree_pair_set_ids(const scree_pair_set *set, size_t k, uint32_t id[2]);
 
+/// Whether the first body of element `k` is here: elements lie with both of their bodies where there is no list, and
+/// count where this says so.
+bool scree_pair_set_counts(const scree_state *state, const scree_pair_set *set, size_t k);
+
 /// Puts the rows of a group into the order of their ids; contacts have none.
 void scree_pair_set_sort(const scree_pair_set *set);
 

@@ -25,7 +25,6 @@ scree_status scree_parts_open(scree_work *work, scree_error *error)
     if (!status) status = scree_allocate(&work->parts->send, size, sizeof *work->parts->send, error);
     if (!status) status = scree_allocate(&work->parts->receive, size, sizeof *work->parts->receive, error);
     const char *seed = getenv("SCREE_RANDOM_PARTS");
-    if (!status) work->parts->balance.by_time = work->parts_by_time;
     if (!status) scree_balance_begin(&work->parts->balance);
     if (!status && seed) work->parts->seed = strtoull(seed, NULL, 10);
     return status;
@@ -89,7 +88,7 @@ static bool out_of_balance(const scree_state *state, const scree_work *work)
     scree_comm_add(state, &sum, 1);
     const double mean = (double)sum / scree_comm_size();
     parts->worst = mean > 0 ? fmax(parts->worst, largest / mean) : parts->worst;
-    return largest > SCREE_PARTS_IMBALANCE * mean + scree_balance_slack(&parts->balance);
+    return largest > SCREE_PARTS_IMBALANCE * mean + scree_balance_slack(work);
 }
 
 /// By what they cost, while the last list holds.

@@ -66,12 +66,8 @@ typedef struct scree_parts {
 /// Process 0 has the whole sample, or none of the processes has a body yet.
 bool scree_parts_are_whole(const scree_work *work);
 
-/// Parts without a list, whose contacts have been saved: what belongs to two bodies lies with both of them. Nothing
-/// happens where there is no list. All processes call it. Errors: memory.
-scree_status scree_parts_unlist(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
-
 /// From parts, whose contacts have been saved, to the whole in process 0, without a list; contacts are in the state.
-/// The others keep what they have (scree_parts_unlist) and their memory does not grow. what: for whom, in the counts.
+/// The others keep what they have, without a list, too, and their memory does not grow. what: for whom, in the counts.
 /// All processes call it. Errors: memory.
 scree_status scree_parts_gather(scree_state *state, scree_work *work, const char *what,
                                 scree_error *error) SCREE_MUST_USE;

@@ -232,7 +232,7 @@ static scree_status route_bodies(const scree_state *state, scree_route *route, s
     return status;
 }
 
-/// Elements lie with both of their bodies until a list is made of them: the process of the first one sends them.
+/// Each element is sent by one process: of a list by that which evaluates it, else by that which counts it.
 static scree_status route_pairs(const scree_state *state, const scree_work *work, const scree_pair_set *set,
                                 scree_route *route, scree_error *error)
 {
@@ -242,8 +242,7 @@ static scree_status route_pairs(const scree_state *state, const scree_work *work
     for (size_t k = 0; k < *set->count; k++) {
         uint32_t id[2];
         scree_pair_set_ids(set, k, id);
-        const bool here = work->valid || scree_state_row_of(state, id[0]) != SCREE_NO_ROW;
-        key[k] = here ? scree_route_key(id[0], id[1]) : SCREE_ROUTE_NONE;
+        key[k] = work->valid || scree_pair_set_counts(state, set, k) ? scree_route_key(id[0], id[1]) : SCREE_ROUTE_NONE;
     }
     status = scree_route_open(route, key, *set->count, state->next_id, error);
     scree_release(&key);

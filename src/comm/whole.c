@@ -49,11 +49,8 @@ static scree_status gather_pairs(scree_state *state, scree_work *work, const scr
     uint32_t *index;
     scree_status status = scree_allocate(&index, *set->count + 1, sizeof *index, error);
     if (status) return status;
-    for (size_t k = 0; k < *set->count; k++) {
-        uint32_t id[2];
-        scree_pair_set_ids(set, k, id);
-        if (scree_state_row_of(state, id[0]) != SCREE_NO_ROW) index[chosen++] = (uint32_t)k;
-    }
+    for (size_t k = 0; k < *set->count; k++)
+        if (scree_pair_set_counts(state, set, k)) index[chosen++] = (uint32_t)k;
     const size_t total = scree_parts_count(chosen, counts);
     if (root) {
         for (size_t k = 0; k < chosen; k++) scree_parts_move_element(set->list, set->arrays, index[k], k);
@@ -114,7 +111,8 @@ static void count_reason(scree_parts *parts, const char *what)
     parts->reason[k].count++;
 }
 
-scree_status scree_parts_unlist(scree_state *state, scree_work *work, scree_error *error)
+/// Parts without a list: what belongs to two bodies lies with both of them.
+static scree_status unlist(scree_state *state, scree_work *work, scree_error *error)
 {
     if (!work->valid) return SCREE_OK;
     scree_status status = scree_parts_migrate(state, work, error);
@@ -126,7 +124,7 @@ scree_status scree_parts_gather(scree_state *state, scree_work *work, const char
 {
     scree_pair_set set[SCREE_PAIR_SETS];
     size_t sets = 0;
-    scree_status status = scree_parts_unlist(state, work, error);
+    scree_status status = unlist(state, work, error);
     const scree_traffic_purpose before = scree_traffic_for(SCREE_TRAFFIC_GATHERS);
     const bool root = scree_comm_rank() == 0;
     if (!status && root) status = note_own(state, work->parts, error);

@@ -220,19 +220,11 @@ scree_status scree_ranks_return(scree_simulation *s, scree_error *error)
     return status ? status : scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
 }
 
-scree_status scree_ranks_unlist(scree_simulation *s, scree_error *error)
-{
-    if (!s->state.part) return SCREE_OK;
-    scree_status status = s->work.valid ? scree_contacts_save(&s->state, &s->work, error) : SCREE_OK;
-    if (!status) status = scree_parts_unlist(&s->state, &s->work, error);
-    s->table.count = 0;
-    return status;
-}
-
 scree_status scree_ranks_gather(scree_simulation *s, const char *what, scree_error *error)
 {
     if (scree_comm_size() == 1 || is_whole_elsewhere(s)) return SCREE_OK;
-    scree_status status = scree_ranks_unlist(s, error);
+    scree_status status = scree_ranks_save_contacts(s, error);
+    s->table.count = 0;
     if (!status) status = scree_parts_gather(&s->state, &s->work, what, error);
     if (status || scree_comm_rank() > 0) return status;
     return scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);

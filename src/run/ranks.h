@@ -55,9 +55,6 @@ scree_status scree_ranks_spread(scree_simulation *s, scree_error *error) SCREE_M
 /// To parts from bodies that are with any process, as ranges of a file are. Errors: scree_parts_spread's.
 scree_status scree_ranks_place(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
-/// A part without a list, whose contacts are in the state. Nothing happens where the state is whole. Errors: memory.
-scree_status scree_ranks_unlist(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
-
 /// What contacts remember goes into the state; of a part that has no list yet it is there. Errors: memory.
 scree_status scree_ranks_save_contacts(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 

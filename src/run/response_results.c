@@ -155,13 +155,13 @@ static scree_status check_element(const numbers *n, const scree_state *state, sc
                               n->element, wide[1] - wide[0], high[1] - high[0]);
 }
 
-/// The load presses on a grain at the top when it begins to act.
 /// Its selection and its element are looked for among all bodies.
 static bool begins_whole(const scree_context *c)
 {
     return numbers_of(c->model) != NULL;
 }
 
+/// The load presses on a grain at the top when it begins to act.
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     const numbers *n = numbers_of(c->model);

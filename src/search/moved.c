@@ -32,9 +32,7 @@ void scree_moved_tell(scree_state *state, scree_work *work, const scree_speeds *
     }
     moved->told = true;
     moved->driven = 0;
-    moved->surface = speeds->surface;
-    moved->centre = speeds->centre;
-    moved->spin = speeds->spin;
+    moved->speeds = *speeds;
 }
 
 void scree_moved_drive(scree_state *state, scree_work *work, double speed)
@@ -50,9 +48,9 @@ static void list(scree_moved *moved, bool due)
     moved->due = due;
     scree_reduction_maximum(&moved->together, &moved->due, 1);
     if (!moved->told) return;
-    scree_reduction_maximum(&moved->together, &moved->surface, 1);
-    scree_reduction_maximum(&moved->together, &moved->centre, 1);
-    scree_reduction_maximum(&moved->together, &moved->spin, 1);
+    scree_reduction_maximum(&moved->together, &moved->speeds.surface, 1);
+    scree_reduction_maximum(&moved->together, &moved->speeds.centre, 1);
+    scree_reduction_maximum(&moved->together, &moved->speeds.spin, 1);
     scree_reduction_maximum(&moved->together, &moved->driven, 1);
 }
 
@@ -61,7 +59,7 @@ static void settle_all(scree_state *state, scree_work *work)
     scree_moved *moved = &work->moved;
     if (!moved->told) return;
     moved->told = false;
-    settle(state, work, &(scree_speeds){.surface = moved->surface, .centre = moved->centre, .spin = moved->spin});
+    settle(state, work, &moved->speeds);
     if (moved->driven > 0) settle_driven(state, work, moved->driven);
 }
 

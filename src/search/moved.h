@@ -6,12 +6,6 @@
 
 #include "state/work.h"
 
-/// The largest of the bodies that are here [m/s]. Infinite: one is not a number.
-typedef struct scree_speeds {
-    double surface;      ///< of |v| + R |w|; 0: `centre` + `spin` bounds it
-    double centre, spin; ///< of |v|, which the list reckons with, and of R |w|
-} scree_speeds;
-
 /// A scheme has moved the bodies. Where the state is a part, state->largest_speed and work->budget wait for the
 /// message.
 void scree_moved_tell(scree_state *state, scree_work *work, const scree_speeds *speeds);

@@ -133,12 +133,19 @@ static inline bool scree_contacts_roll(const scree_model *model)
     return rolls;
 }
 
-/// What processes tell each other between the first half of a step and the search (search/moved.h); speeds [m/s].
+/// The largest of the bodies that are here [m/s]. Infinite: one is not a number.
+typedef struct scree_speeds {
+    double surface;      ///< of |v| + R |w|; 0: `centre` + `spin` bounds it
+    double centre, spin; ///< of |v|, which the list reckons with, and of R |w|
+} scree_speeds;
+
+/// What processes tell each other between the first half of a step and the search (search/moved.h).
 typedef struct scree_moved {
-    double surface, centre, spin, driven;
-    double due; ///< above 0: one of them has to make its list anew
-    bool told;  ///< speeds of this process wait for the message
-    bool known; ///< the message has come before the search
+    scree_speeds speeds; ///< that the scheme has told
+    double driven;       ///< m/s, of the bodies that were driven behind it
+    double due;          ///< above 0: one of them has to make its list anew
+    bool told;           ///< speeds of this process wait for the message
+    bool known;          ///< the message has come before the search
     scree_reduction together;
 } scree_moved;
 
