@@ -297,6 +297,7 @@ static scree_status attack(const scree_context *c, scree_error *error)
     if (status) return status;
     // That of the state is not known yet.
     press(c->model, state, ldexp(bound, -50), false);
+    scree_deformation_await_attack(state);
     for (size_t k = 0; force_at(state, k, &row, force); k++)
         if (row != SCREE_NO_ROW && find_arm(state, row, force, arm)) scree_deformation_attack(state, row, arm, force);
     return SCREE_OK;

@@ -389,6 +389,8 @@ scree_status scree_prescribed_attack(const scree_context *c, scree_error *error)
     (void)error;
     if (!c->state->stretch) return SCREE_OK;
     read_orders(c, scree_state_time(c->state), list);
+    for (int load = 0; load < c->model->load_count; load++)
+        if (list[load].own && list[load].own->attack == SCREE_ATTACK_SURFACE) scree_deformation_await_attack(c->state);
     for (uint64_t k = 0; k < all->listed; k++) {
         const uint32_t row = all->row[k];
         const int lever = all->owner[row][SCREE_LEVER];

@@ -33,6 +33,13 @@ static inline scree_deformation *scree_deformation_of(const scree_state *state)
     return state->own[SCREE_SLOT_deformation];
 }
 
+/// Loads put something on surfaces in this step: said before the first of them, and in all processes alike, since a body
+/// that is loaded may go to one that has had none.
+static inline void scree_deformation_await_attack(const scree_state *state)
+{
+    scree_deformation_of(state)->attacked = scree_deformation_of(state)->attack != NULL;
+}
+
 /// Adds what a load puts on the surface of a body, force [N] at `arm` [m] from its centre: in the phases `follow` and
 /// `search`, at the places of n + 1. Nothing where bodies are rigid.
 static inline void scree_deformation_attack(const scree_state *state, size_t row, const double arm[3],
@@ -43,7 +50,6 @@ static inline void scree_deformation_attack(const scree_state *state, size_t row
     const int(*place)[2] = state->dimension == 3 ? space : plane, size = state->dimension == 3 ? 6 : 3;
     scree_surface_force *attack = scree_deformation_of(state)->attack;
     const double half = 0.5 / state->row[row].radius;
-    scree_deformation_of(state)->attacked = attack != NULL;
     for (int k = 0; k < size && attack; k++)
         attack[row].force[k] += half * (arm[place[k][0]] * force[place[k][1]] + arm[place[k][1]] * force[place[k][0]]);
 }

@@ -455,10 +455,30 @@ stages:
   - {stage: rotate_particle, boundary: minimal, spin: 10 rad/s, rest_time: 2 ms, hold_time: 2 ms}
 $rest
 EOF
+# Few bodies are pressed at their surfaces: some processes have none of them, and get some.
+cat >pressed.yaml <<EOF
+scree: 1
+name: pressed
+seed: 26
+materials: [{name: gel, young_modulus: 200 GPa, poisson_ratio: 0.35, density: 2000 kg/m3, friction: 0, normal_stiffness: 7e10 N/m, stiffness_ratio: 0, damping_ratio: 0}]
+particles: {shape: disc, material: gel, count: 24, distribution: equal, radius: 1 mm, thickness: 1 m}
+contact: {law: linear, deformation: explicit}
+selections: [{select: layer, name: low, axis: y, end: low}, {select: layer, name: high, axis: y, end: high}]
+loads:
+  - {load: prescribed, selection: low, attack: surface, force_y: 5 kN}
+  - {load: prescribed, selection: high, attack: surface, force_y: -5 kN}
+integrator: {step: 200 ns}
+stages:
+  - {stage: prepare, method: square, width: 8 mm}
+  - {stage: bond, gap_tolerance: 1 um}
+  - {stage: relax, boundary: none, duration: 40 us}
+measure: {samples: 20, cells: no}
+output: {snapshots: 20, figures: no}
+EOF
 # Who asked for whole states, as log.txt has it; samples taken in parts.
 wholes() { grep -o 'whole states were put together, in process 0 alone, for: .*' "$1/log.txt"; }
 in_parts() { "$scree" get "$1" processes_samples_in_parts; }
-for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun; do
+for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun pressed; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
