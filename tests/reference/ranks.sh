@@ -111,7 +111,7 @@ attempt() {
     rm -rf "$folder"
     if [ "$2 $3" = "1 1" ]; then
         folder=$first
-        set -- "$@" --force --set output.snapshots=100 --set output.paraview=no
+        set -- "$@" --force --set output.snapshots=200 --set output.paraview=no
     elif [ -d "$first" ]; then
         read -r -a from < <(snapshot "$first") || true
     fi
