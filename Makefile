@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PREFIX ?= /usr/local
 
-.PHONY: all packages programs demo test gallery site reproduce reproduce-full reference reference-check bench bench-estimates install clean help sanitize
+.PHONY: all packages programs demo test gallery site reproduce reproduce-full reference reference-check ranks bench bench-estimates install clean help sanitize
 all: ## build/scree and libscree (static and shared)
 	@mkdir -p $(BUILD)
 	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
@@ -40,6 +40,10 @@ reference: all ## store the state checksums anew: after a change that means to a
 
 reference-check: all ## the built-in cases in their quick forms against the stored checksums: minutes
 	@bash tests/reference/quick.sh $(BUILD)/scree compare
+
+ranks: ## the built-in cases on 1 to 8 processes x 1, 2 threads against each other and the stored checksums (preset mpi): hours
+	@cmake --preset mpi >/dev/null && cmake --build build-mpi -j $(JOBS) --target scree_cli
+	@bash tests/reference/ranks.sh build-mpi/scree ranks.txt; bash tests/reference/ranks.sh --table ranks.txt
 
 bench: all ## particle-steps per second, memory, and peers where they are installed
 	@cmake --build $(BUILD) -j $(JOBS) --target benches
