@@ -135,22 +135,31 @@ scree_status scree_parts_list(const char *directory, scree_part_kind kind, scree
     return status;
 }
 
+/// What a pass over the groups of run.h5 fills.
+typedef struct listing {
+    scree_hdf5 *run;
+    scree_part_list *list;
+    bool own_only;
+} listing;
+
+static herr_t list_link(hid_t group, const char *name, const H5L_info_t *link, void *argument)
+{
+    listing *into = argument;
+    (void)group;
+    if (!into->own_only || link->type == H5L_TYPE_HARD)
+        into->run->status = part_list_add(into->list, strtoll(name, NULL, 10), into->run->error);
+    return into->run->status ? 1 : 0;
+}
+
 scree_status scree_run_file_list(scree_hdf5 *run, scree_part_kind kind, bool own_only, scree_part_list *list)
 {
     *list = (scree_part_list){0};
     if (run->status) return run->status;
     const char *group = part_names[kind].group;
-    H5G_info_t information = {0};
-    if (H5Gget_info_by_name(run->file, group, &information, H5P_DEFAULT) < 0) scree_hdf5_fail(run, "list", group);
-    for (hsize_t k = 0; k < information.nlinks && !run->status; k++) {
-        char name[64];
-        H5L_info_t link;
-        if (H5Lget_info_by_idx(run->file, group, H5_INDEX_NAME, H5_ITER_INC, k, &link, H5P_DEFAULT) < 0 ||
-            H5Lget_name_by_idx(run->file, group, H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT) < 0)
-            scree_hdf5_fail(run, "list", group);
-        else if (!own_only || link.type == H5L_TYPE_HARD)
-            run->status = part_list_add(list, strtoll(name, NULL, 10), run->error);
-    }
+    listing into = {run, list, own_only};
+    // One pass: links by their index are sorted anew for each, since the file keeps no index of them.
+    if (H5Literate_by_name(run->file, group, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, list_link, &into, H5P_DEFAULT) < 0)
+        scree_hdf5_fail(run, "list", group);
     if (run->status) scree_part_list_destroy(list);
     part_list_sort(list);
     return run->status;

@@ -71,7 +71,7 @@ while getopts p:t:l:s: option; do
     esac
 done
 shift $((OPTIND - 1))
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 touch "$results"
@@ -111,9 +111,11 @@ attempt() {
     rm -rf "$folder"
     if [ "$2 $3" = "1 1" ]; then
         folder=$first
+        rm -f "$first.from"
         set -- "$@" --force --set output.snapshots=200 --set output.paraview=no
     elif [ -d "$first" ]; then
-        read -r -a from < <(snapshot "$first") || true
+        [ -f "$first.from" ] || snapshot "$first" >"$first.from"
+        read -r -a from <"$first.from" || true
     fi
     if [ ${#from[@]} = 0 ]; then
         set -- "$2" "$3" "$1" --quick "${@:4}" -o "$folder"
