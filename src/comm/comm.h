@@ -20,8 +20,8 @@ scree_status scree_comm_begin(scree_state *state, scree_work *work, scree_error 
 /// Sends what the ghosts follow in, and receives it behind the own rows: position + H s and velocity + H' s of a ghost
 /// s lattice vectors from its body, all else as it is. H' is the velocity of the lattice at the end of the step
 /// (scree_periodic_lattice_velocity): in a sheared cell a ghost moves with the affine field at its own place. Cost: a
-/// few copies a ghost, shared among the threads.
-void scree_comm_exchange(scree_state *state, scree_work *work);
+/// few copies a ghost, shared among the threads. Errors: memory for messages, which grow with what bodies have.
+scree_status scree_comm_exchange(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Adds what the ghosts have collected to their bodies, and leaves the rows of the ghosts clear.
 void scree_comm_add_back(scree_state *state, scree_work *work);

@@ -62,9 +62,12 @@ scree_status scree_comm_begin(scree_state *state, scree_work *work, scree_error 
     return SCREE_OK;
 }
 
-void scree_comm_exchange(scree_state *state, scree_work *work)
+scree_status scree_comm_exchange(scree_state *state, scree_work *work, scree_error *error)
 {
-    send(state, work, SCREE_MESSAGE_STEP);
+    // What bodies have may have become more since the list was made.
+    const scree_status status = state->part ? scree_parts_reserve_messages(state, work, error) : SCREE_OK;
+    if (!status) send(state, work, SCREE_MESSAGE_STEP);
+    return status;
 }
 
 void scree_comm_add_back(scree_state *state, scree_work *work)

@@ -532,9 +532,11 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
     const bool due = scree_neighbours_are_due(state, work);
     if (!work->moved.known) scree_moved_begin(state, work, due);
     // While that goes ghosts follow, of which a list that is made anew knows nothing.
-    if (stands && (work->ghosts.count > 0 || state->part)) scree_comm_exchange(state, work);
+    scree_status status = SCREE_OK;
+    if (stands && (work->ghosts.count > 0 || state->part)) status = scree_comm_exchange(state, work, error);
     if (!work->moved.known) scree_moved_end(state, work);
     work->moved.known = false;
+    if (status) return status;
     if (!stands || due || work->moved.due > 0 || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     return work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);

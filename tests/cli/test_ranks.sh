@@ -475,10 +475,27 @@ stages:
 measure: {samples: 20, cells: no}
 output: {snapshots: 20, figures: no}
 EOF
+# Where the law looks ahead bodies have more to send from their first step on than when their list was made.
+cat >ahead.yaml <<EOF
+scree: 1
+name: ahead
+seed: 27
+materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5}]
+particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 150}
+contact: {law: hertz_brilliantov, damping_time: 20 us, friction_update: implicit, reference_velocity: 1 mm/s}
+integrator: {scheme: position_verlet, step_fraction: 0.2}
+boundary: {lateral: pressure, every: 1000}
+stages:
+  - {stage: prepare, method: drop_and_roll, aspect_ratio: 2}
+  - {stage: confine, pressure: 3 kPa, unbalanced_limit: 0.5, stress_tolerance: 0.5}
+  - {stage: compress, strain: 2 %, rate: 10 1/s}
+measure: {samples: 20, cells: no}
+output: {snapshots: 3, figures: no}
+EOF
 # Who asked for whole states, as log.txt has it; samples taken in parts.
 wholes() { grep -o 'whole states were put together, in process 0 alone, for: .*' "$1/log.txt"; }
 in_parts() { "$scree" get "$1" processes_samples_in_parts; }
-for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun pressed; do
+for name in shear layer drum lid path block pour rain bonded strip heap rounded cell nap gear sides core mould loose ball sleeve tube soft gel spun pressed ahead; do
     checks=$((checks + 1)); "$scree" run $name.yaml -o one-$name --quiet --threads 1 2>/dev/null || complain "$name on one process"
     for ranks in 2 3 4; do
         expect 0 '|warning' on $ranks $name.yaml -o many -f --threads 1
@@ -504,6 +521,11 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
         sides | core) wholes many | grep -q 'begins of stages by pressure ([1-9]' || complain "$name: whose begin needs the whole is not told: $(wholes many)" ;;
         esac
     done
+    # From the snapshot before the last one, which other processes than those that wrote it go on from.
+    latest=$(h5ls "one-$name/run.h5/snapshots" | tail -n 1 | awk '{print $1 - 1}')
+    rm -rf again && cp -r "one-$name" again && rm again/summary.json
+    expect 0 '|warning' on 3 --restart again --from "$latest" --threads 1
+    same "$(checksum again)" "$(checksum one-$name)" "$name from snapshot $latest on 3 processes"
     expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
     same "$(checksum many)" "$(checksum one-$name)" "$name in parts at random"
     grep -qE ' [1-9][0-9]* bodies sent' many/log.txt || complain "no body of $name went to another process"
