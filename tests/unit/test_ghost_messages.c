@@ -191,7 +191,6 @@ static void ghosts_hold_what_is_declared(int dimension)
         if (dimension == 3) state->turn[k].wy = (double)k;
     }
     for (size_t k = COUNT; k < COUNT + s.work.ghosts.count; k++) own_of(state)->pulses[k].left = (int64_t)k;
-    scree_error error;
     assert_int_equal(scree_comm_exchange(state, &s.work, &error), SCREE_OK);
     for (size_t k = 0; k < s.work.ghosts.count; k++) {
         const scree_ghost *ghost = &s.work.ghosts.ghost[k];
