@@ -523,9 +523,9 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
     done
     # From the snapshot before the last one, which other processes than those that wrote it go on from.
     latest=$(h5ls "one-$name/run.h5/snapshots" | tail -n 1 | awk '{print $1 - 1}')
-    rm -rf again && cp -r "one-$name" again && rm again/summary.json
-    expect 0 '|warning' on 3 --restart again --from "$latest" --threads 1
-    same "$(checksum again)" "$(checksum one-$name)" "$name from snapshot $latest on 3 processes"
+    rm -rf later && cp -r "one-$name" later && rm later/summary.json
+    expect 0 '|warning' on 3 --restart later --from "$latest" --threads 1
+    same "$(checksum later)" "$(checksum one-$name)" "$name from snapshot $latest on 3 processes"
     expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
     same "$(checksum many)" "$(checksum one-$name)" "$name in parts at random"
     grep -qE ' [1-9][0-9]* bodies sent' many/log.txt || complain "no body of $name went to another process"
