@@ -27,7 +27,7 @@ table() {
     }
     function add(list, item) { return list (list == "" ? "" : ", ") item }
     function row(name,    k, at, what, wanted, agree, other, least, most, kinds, kind, where) {
-        wanted = stored[name]
+        if (name in stored) wanted = stored[name]
         for (k = 1; k <= count[name]; k++) {
             at = combination[name, k]
             what = result[name, at]
