@@ -191,23 +191,6 @@ static void read_group(scree_hdf5 *run, const char *group, scree_cell_snapshot *
     check_numbers(run, &snapshot->assembly, &snapshot->cells);
 }
 
-/// Opens run.h5 and finds the group of a snapshot and its index. What is wrong is in run->status.
-static void open_group(scree_hdf5 *run, const char *path, size_t which, int64_t *index, char *group, size_t size,
-                       scree_error *error)
-{
-    scree_part_list list;
-    scree_hdf5_open(run, path, error);
-    if (!scree_run_file_list(run, SCREE_PART_SNAPSHOT, false, &list)) {
-        if (which < list.count)
-            *index = list.index[which];
-        else
-            run->status = scree_error_set(error, SCREE_ERROR_INPUT, "'%s' holds %zu snapshots: there is no number %zu",
-                                          path, list.count, which);
-    }
-    scree_part_list_destroy(&list);
-    scree_part_group(SCREE_PART_SNAPSHOT, *index, group, size);
-}
-
 scree_status scree_cell_snapshot_find(const char *directory, size_t which, scree_error *error)
 {
     char path[PATH_MAX], group[64], name[80];
@@ -215,7 +198,7 @@ scree_status scree_cell_snapshot_find(const char *directory, size_t which, scree
     scree_hdf5 run;
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
-    open_group(&run, path, which, &index, group, sizeof group, error);
+    scree_run_file_open_snapshot(&run, path, which, &index, group, sizeof group, error);
     need_cells(&run, group, index, name, sizeof name);
     return scree_hdf5_close(&run);
 }
@@ -228,7 +211,7 @@ scree_status scree_cell_snapshot_read(const char *directory, size_t which, scree
     *snapshot = (scree_cell_snapshot){0};
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
-    open_group(&run, path, which, &snapshot->index, group, sizeof group, error);
+    scree_run_file_open_snapshot(&run, path, which, &snapshot->index, group, sizeof group, error);
     read_group(&run, group, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_cell_snapshot_destroy(snapshot);

@@ -165,6 +165,22 @@ scree_status scree_run_file_list(scree_hdf5 *run, scree_part_kind kind, bool own
     return run->status;
 }
 
+void scree_run_file_open_snapshot(scree_hdf5 *run, const char *path, size_t which, int64_t *index, char *group,
+                                  size_t size, scree_error *error)
+{
+    scree_part_list list;
+    scree_hdf5_open(run, path, error);
+    if (!scree_run_file_list(run, SCREE_PART_SNAPSHOT, false, &list)) {
+        if (which < list.count)
+            *index = list.index[which];
+        else
+            run->status = scree_error_set(error, SCREE_ERROR_INPUT, "'%s' holds %zu snapshots: there is no number %zu",
+                                          path, list.count, which);
+    }
+    scree_part_list_destroy(&list);
+    scree_part_group(SCREE_PART_SNAPSHOT, *index, group, size);
+}
+
 // ---- links -------------------------------------------------------------------------------------------------------
 
 void scree_run_file_create(scree_hdf5 *run, const char *path, const char *case_name, scree_error *error)

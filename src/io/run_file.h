@@ -32,6 +32,10 @@ scree_status scree_parts_list(const char *directory, scree_part_kind kind, scree
                               scree_error *error) SCREE_MUST_USE;
 /// Groups of an open run.h5; with `own_only` those that are in the file itself and not links. Errors: memory.
 scree_status scree_run_file_list(scree_hdf5 *run, scree_part_kind kind, bool own_only, scree_part_list *list);
+/// Opens run.h5 and finds snapshot number `which` of those that it holds: its index and its group. What is wrong is in
+/// run->status: SCREE_ERROR_INPUT when there are not so many.
+void scree_run_file_open_snapshot(scree_hdf5 *run, const char *path, size_t which, int64_t *index, char *group,
+                                  size_t size, scree_error *error);
 
 /// Opens DIRECTORY/run.h5 to read. When its checksum is broken it is opened all the same, since every part of it has a
 /// checksum of its own: look at groups with scree_hdf5_verify before they are copied. *sound: the checksum is whole. A

@@ -393,17 +393,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
     scree_hdf5 run;
-    scree_part_list list;
-    scree_hdf5_open(&run, path, error);
-    if (!scree_run_file_list(&run, SCREE_PART_SNAPSHOT, false, &list)) {
-        if (which >= list.count)
-            run.status = scree_error_set(error, SCREE_ERROR_INPUT, "'%s' holds %zu snapshots: there is no number %zu",
-                                         path, list.count, which);
-        else
-            snapshot->index = list.index[which];
-    }
-    scree_part_list_destroy(&list);
-    scree_part_group(SCREE_PART_SNAPSHOT, snapshot->index, group, sizeof group);
+    scree_run_file_open_snapshot(&run, path, which, &snapshot->index, group, sizeof group, error);
     scree_hdf5_get_number(&run, group, "time", &snapshot->time);
     scree_hdf5_get_integer(&run, group, "grains", &snapshot->grains);
     scree_hdf5_get_number(&run, group, "axial_strain", &snapshot->axial_strain);

@@ -481,7 +481,7 @@ scree: 1
 name: ahead
 seed: 27
 materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5}]
-particles: {shape: disc, material: glass, radius_min: 0.7 mm, radius_max: 1.3 mm, count: 150}
+$discs
 contact: {law: hertz_brilliantov, damping_time: 20 us, friction_update: implicit, reference_velocity: 1 mm/s}
 integrator: {scheme: position_verlet, step_fraction: 0.2}
 boundary: {lateral: pressure, every: 1000}
@@ -489,8 +489,7 @@ stages:
   - {stage: prepare, method: drop_and_roll, aspect_ratio: 2}
   - {stage: confine, pressure: 3 kPa, unbalanced_limit: 0.5, stress_tolerance: 0.5}
   - {stage: compress, strain: 2 %, rate: 10 1/s}
-measure: {samples: 20, cells: no}
-output: {snapshots: 3, figures: no}
+$rest
 EOF
 # Who asked for whole states, as log.txt has it; samples taken in parts.
 wholes() { grep -o 'whole states were put together, in process 0 alone, for: .*' "$1/log.txt"; }
@@ -521,11 +520,10 @@ for name in shear layer drum lid path block pour rain bonded strip heap rounded 
         sides | core) wholes many | grep -q 'begins of stages by pressure ([1-9]' || complain "$name: whose begin needs the whole is not told: $(wholes many)" ;;
         esac
     done
-    # From the snapshot before the last one, which other processes than those that wrote it go on from.
-    latest=$(h5ls "one-$name/run.h5/snapshots" | tail -n 1 | awk '{print $1 - 1}')
+    # From an early snapshot, which other processes than those that wrote it go on from.
     rm -rf later && cp -r "one-$name" later && rm later/summary.json
-    expect 0 '|warning' on 3 --restart later --from "$latest" --threads 1
-    same "$(checksum later)" "$(checksum one-$name)" "$name from snapshot $latest on 3 processes"
+    expect 0 '|warning' on 3 --restart later --from 1 --threads 1
+    same "$(checksum later)" "$(checksum one-$name)" "$name from snapshot 1 on 3 processes"
     expect 0 '|warning' env SCREE_RANDOM_PARTS=7 mpirun --oversubscribe -n 3 "$scree" run $name.yaml -o many -f --threads 1 --quiet
     same "$(checksum many)" "$(checksum one-$name)" "$name in parts at random"
     grep -qE ' [1-9][0-9]* bodies sent' many/log.txt || complain "no body of $name went to another process"
