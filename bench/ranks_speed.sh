@@ -2,13 +2,14 @@
 # Speed of a run on several processes: a settled bed of 256,000 spheres (bench/data/bed32k.csv.gz eight times beside itself,
 # hertz_mindlin with history and ledger, steps of 1e-5 s), by one process of either build, by two threads and by two
 # processes, in turn, and by LAMMPS on one and two processes where it is installed.
-# Usage: bench/ranks_speed.sh build/scree build-mpi/scree [TURNS [COPIES]]
-# Time of steps: a run of 500 steps less one of 100, so that reading, lists of the begin and files are out of it; the least
-# of TURNS (3). Only on idle cores it says something.
+# Usage: bench/ranks_speed.sh build/scree build-mpi/scree [TURNS [COPIES [STEPS]]]
+# Speed of STEPS (400) steps as the program itself takes it (`scree get DIR particle_steps_per_second`: reading, the last
+# snapshot and results are out of it). Each turn takes every way once; told are the medians of TURNS (5) and, as a machine
+# changes in minutes, the median, least and largest of each turn's own ratio to one process. Only on idle cores it says something.
 set -euo pipefail
 alone=$(realpath "${1:?the program built without MPI}")
 together=$(realpath "${2:?the program built with MPI}")
-turns=${3:-3} copies=${4:-8}
+turns=${3:-5} copies=${4:-8} steps=${5:-400}
 here=$(dirname "$(realpath "$0")")
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 work=$(mktemp -d)
@@ -45,42 +46,42 @@ measure: {samples: 1, cells: no}
 output: {snapshots: 0, figures: no, paraview: no, checkpoint_interval: 1000000 s}
 guard: {stability: warn}
 YAML
-# once STEPS THREADS COMMAND...: seconds of a run.
-once() {
-    local steps=$1 threads=$2 begin
-    shift 2
-    begin=$(date +%s.%N)
+# speed THREADS COMMAND...: particle-steps a second of a run.
+speed() {
+    local threads=$1
+    shift
     "$@" run bed.yaml -o out --force --quiet --threads "$threads" --set stages.relax.duration="$((10 * steps)) us" </dev/null >run.txt 2>&1 ||
         { cat run.txt >&2; return 1; }
-    awk -v begin="$begin" -v end="$(date +%s.%N)" 'BEGIN { print end - begin }'
+    "$alone" get out particle_steps_per_second
 }
-least() { awk -v a="${1:-1e9}" -v b="$2" 'BEGIN { print a < b ? a : b }'; }
-names=("one process" "one process, built with MPI" "two threads" "two processes")
-declare -A short long
+# lammps PROCESSES: the same of LAMMPS, half as many steps.
+lammps() {
+    mpirun --bind-to core -n "$1" lmp -in "$here/peers/lammps_spheres.in" -var data bed.data -var young 5e6 -var poisson 0.3 -var restitution 0.3 \
+        -var friction 0.5 -var gravity 9.81 -var step 1e-5 -var skin 2e-4 -var steps $((steps / 2)) -var wall_normal 3.663004e6 -var wall_tangential 4.524887e6 \
+        -log none </dev/null | awk '/^Loop time/ { print $9 * $12 / $4 }'
+}
+names=("one process" "one process, built with MPI" "two threads" "two processes" "LAMMPS, one process" "LAMMPS, two processes")
+ways=4
+command -v lmp >/dev/null && ways=6
 for ((turn = 0; turn < turns; turn++)); do
-    for k in 0 1 2 3; do
+    for ((k = 0; k < ways; k++)); do
         case $k in
-        0) command=("$alone") threads=1 ;;
-        1) command=("$together") threads=1 ;;
-        2) command=("$alone") threads=2 ;;
-        3) command=(mpirun --bind-to core -n 2 "$together") threads=1 ;;
+        0) value=$(speed 1 "$alone") ;;
+        1) value=$(speed 1 "$together") ;;
+        2) value=$(speed 2 "$alone") ;;
+        3) value=$(speed 1 mpirun --bind-to core -n 2 "$together") ;;
+        4) value=$(lammps 1) ;;
+        5) value=$(lammps 2) ;;
         esac
-        seconds=$(once 100 $threads "${command[@]}")
-        short[$k]=$(least "${short[$k]:-}" "$seconds")
-        seconds=$(once 500 $threads "${command[@]}")
-        long[$k]=$(least "${long[$k]:-}" "$seconds")
+        echo "$turn $k $value"
     done
-done
-echo "$spheres spheres"
-echo "| | million particle-steps/s | over one process |"
-echo "|---|---|---|"
-for k in 0 1 2 3; do
-    awk -v name="${names[$k]}" -v n="$spheres" -v s="${short[$k]}" -v l="${long[$k]}" -v s0="${short[0]}" -v l0="${long[0]}" \
-        'BEGIN { printf "| %s | %.2f | %.3f |\n", name, n * 400 / (l - s) / 1e6, (l0 - s0) / (l - s) }'
-done
-command -v lmp >/dev/null || exit 0
-for n in 1 2; do
-    mpirun --bind-to core -n $n lmp -in "$here/peers/lammps_spheres.in" -var data bed.data -var young 5e6 -var poisson 0.3 -var restitution 0.3 \
-        -var friction 0.5 -var gravity 9.81 -var step 1e-5 -var skin 2e-4 -var steps 200 -var wall_normal 3.663004e6 -var wall_tangential 4.524887e6 \
-        -log none </dev/null | awk -v n=$n '/^Loop time/ { printf "| LAMMPS, processes: %d | %.2f | |\n", n, $9 * $12 / $4 / 1e6 }'
+done >speeds.txt
+echo "$spheres spheres, $steps steps, $turns turns"
+echo "| | million particle-steps/s | over one process | least to largest |"
+echo "|---|---|---|---|"
+for ((k = 0; k < ways; k++)); do
+    awk -v k=$k '$2 == 0 { one[$1] = $3 } $2 == k { print $3 / 1e6, $3 / one[$1] }' speeds.txt >way.txt
+    median() { cut -d' ' -f"$1" way.txt | sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int((NR + 2) / 2)]) / 2, v[1], v[NR] }'; }
+    echo "${names[$k]} | $(median 1) | $(median 2)" |
+        awk -F'|' '{ split($2, v, " "); split($3, r, " "); printf "| %s | %.2f | %.3f | %.3f to %.3f |\n", $1, v[1], r[1], r[2], r[3] }'
 done

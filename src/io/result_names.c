@@ -26,7 +26,7 @@ const scree_result scree_run_results[] = {
     {"state_checksum", NULL, "checksum of the final state"},
     {"threads", "1", "threads"},
     {"wall_time", "s", "wall time until the end of the last stage"},
-    {"particle_steps_per_second", "1/s", "speed"},
+    {"particle_steps_per_second", "1/s", "speed of steps: without preparation, samples and files"},
     {"neighbour_rebuilds", "1", "how often the pair list was made"},
     // what several processes did, since the last start
     {"processes", "1", "processes that computed together, where there were several"},
