@@ -60,9 +60,18 @@ lammps() {
         -var friction 0.5 -var gravity 9.81 -var step 1e-5 -var skin 2e-4 -var steps $((steps / 2)) -var wall_normal 3.663004e6 -var wall_tangential 4.524887e6 \
         -log none </dev/null | awk '/^Loop time/ { print $9 * $12 / $4 }'
 }
-names=("one process" "one process, built with MPI" "two threads" "two processes" "LAMMPS, one process" "LAMMPS, two processes")
-ways=4
-command -v lmp >/dev/null && ways=6
+# beside: two runs of one process at the same time, both speeds together: what the machine gives to two that never wait.
+beside() {
+    local core
+    for core in 0 1; do
+        taskset -c $core "$alone" run bed.yaml -o beside-$core --force --quiet --threads 1 --set stages.relax.duration="$((10 * steps)) us" </dev/null >beside-$core.txt 2>&1 &
+    done
+    wait
+    for core in 0 1; do "$alone" get beside-$core particle_steps_per_second; echo; done | awk '{ sum += $1 } END { print sum }'
+}
+names=("one process" "one process, built with MPI" "two threads" "two processes" "two runs of one process beside each other" "LAMMPS, one process" "LAMMPS, two processes")
+ways=5
+command -v lmp >/dev/null && ways=7
 for ((turn = 0; turn < turns; turn++)); do
     for ((k = 0; k < ways; k++)); do
         case $k in
@@ -70,8 +79,9 @@ for ((turn = 0; turn < turns; turn++)); do
         1) value=$(speed 1 "$together") ;;
         2) value=$(speed 2 "$alone") ;;
         3) value=$(speed 1 mpirun --bind-to core -n 2 "$together") ;;
-        4) value=$(lammps 1) ;;
-        5) value=$(lammps 2) ;;
+        4) value=$(beside) ;;
+        5) value=$(lammps 1) ;;
+        6) value=$(lammps 2) ;;
         esac
         echo "$turn $k $value"
     done
