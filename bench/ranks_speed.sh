@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Speed of a run on several processes: a settled bed of 256,000 spheres (bench/data/bed32k.csv.gz eight times beside itself,
 # hertz_mindlin with history and ledger, steps of 1e-5 s), by one process of either build, by two threads and by two
-# processes, in turn, and by LAMMPS on one and two processes where it is installed.
+# processes, by two runs that have nothing to do with each other, and by LAMMPS where it is installed, in turn.
 # Usage: bench/ranks_speed.sh build/scree build-mpi/scree [TURNS [COPIES [STEPS]]]
 # Speed of STEPS (400) steps as the program itself takes it (`scree get DIR particle_steps_per_second`: reading, the last
 # snapshot and results are out of it). Each turn takes every way once; told are the medians of TURNS (5) and, as a machine
@@ -46,13 +46,21 @@ measure: {samples: 1, cells: no}
 output: {snapshots: 0, figures: no, paraview: no, checkpoint_interval: 1000000 s}
 guard: {stability: warn}
 YAML
-# speed THREADS COMMAND...: particle-steps a second of a run.
+# speed FOLDER THREADS COMMAND...: particle-steps a second of a run.
 speed() {
-    local threads=$1
-    shift
-    "$@" run bed.yaml -o out --force --quiet --threads "$threads" --set stages.relax.duration="$((10 * steps)) us" </dev/null >run.txt 2>&1 ||
-        { cat run.txt >&2; return 1; }
-    "$alone" get out particle_steps_per_second
+    local folder=$1 threads=$2
+    shift 2
+    "$@" run bed.yaml -o "$folder" --force --quiet --threads "$threads" --set stages.relax.duration="$((10 * steps)) us" </dev/null >"$folder.txt" 2>&1 ||
+        { cat "$folder.txt" >&2; return 1; }
+    "$alone" get "$folder" particle_steps_per_second
+}
+# beside: two runs of one process at the same time, both speeds together: what the machine gives to two that never wait.
+beside() {
+    local other
+    speed first 1 taskset -c 0 "$alone" >first.speed &
+    other=$!
+    speed second 1 taskset -c 1 "$alone" >second.speed && wait $other &&
+        awk '{ sum += $1 } END { print sum }' first.speed second.speed
 }
 # lammps PROCESSES: the same of LAMMPS, half as many steps.
 lammps() {
@@ -60,25 +68,18 @@ lammps() {
         -var friction 0.5 -var gravity 9.81 -var step 1e-5 -var skin 2e-4 -var steps $((steps / 2)) -var wall_normal 3.663004e6 -var wall_tangential 4.524887e6 \
         -log none </dev/null | awk '/^Loop time/ { print $9 * $12 / $4 }'
 }
-# beside: two runs of one process at the same time, both speeds together: what the machine gives to two that never wait.
-beside() {
-    local core
-    for core in 0 1; do
-        taskset -c $core "$alone" run bed.yaml -o beside-$core --force --quiet --threads 1 --set stages.relax.duration="$((10 * steps)) us" </dev/null >beside-$core.txt 2>&1 &
-    done
-    wait
-    for core in 0 1; do "$alone" get beside-$core particle_steps_per_second; echo; done | awk '{ sum += $1 } END { print sum }'
-}
+# median COLUMN FILE: the median, the least and the largest.
+median() { cut -d' ' -f"$1" "$2" | sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int((NR + 2) / 2)]) / 2, v[1], v[NR] }'; }
 names=("one process" "one process, built with MPI" "two threads" "two processes" "two runs of one process beside each other" "LAMMPS, one process" "LAMMPS, two processes")
 ways=5
 command -v lmp >/dev/null && ways=7
 for ((turn = 0; turn < turns; turn++)); do
     for ((k = 0; k < ways; k++)); do
         case $k in
-        0) value=$(speed 1 "$alone") ;;
-        1) value=$(speed 1 "$together") ;;
-        2) value=$(speed 2 "$alone") ;;
-        3) value=$(speed 1 mpirun --bind-to core -n 2 "$together") ;;
+        0) value=$(speed out 1 "$alone") ;;
+        1) value=$(speed out 1 "$together") ;;
+        2) value=$(speed out 2 "$alone") ;;
+        3) value=$(speed out 1 mpirun --bind-to core -n 2 "$together") ;;
         4) value=$(beside) ;;
         5) value=$(lammps 1) ;;
         6) value=$(lammps 2) ;;
@@ -91,7 +92,6 @@ echo "| | million particle-steps/s | over one process | least to largest |"
 echo "|---|---|---|---|"
 for ((k = 0; k < ways; k++)); do
     awk -v k=$k '$2 == 0 { one[$1] = $3 } $2 == k { print $3 / 1e6, $3 / one[$1] }' speeds.txt >way.txt
-    median() { cut -d' ' -f"$1" way.txt | sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int((NR + 2) / 2)]) / 2, v[1], v[NR] }'; }
-    echo "${names[$k]} | $(median 1) | $(median 2)" |
-        awk -F'|' '{ split($2, v, " "); split($3, r, " "); printf "| %s | %.2f | %.3f | %.3f to %.3f |\n", $1, v[1], r[1], r[2], r[3] }'
+    echo "${names[$k]} | $(median 1 way.txt) | $(median 2 way.txt)" |
+        awk -F' [|] ' '{ split($2, v, " "); split($3, r, " "); printf "| %s | %.2f | %.3f | %.3f to %.3f |\n", $1, v[1], r[1], r[2], r[3] }'
 done

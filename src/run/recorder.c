@@ -57,7 +57,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     recorder->last_threads = -INFINITY;
     recorder->threads = s->work.threads;
     recorder->progress_step = s->state.step;
-    recorder->progress_evaluations = recorder->checkpoint_evaluations =
+    recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
         s->state.evaluations;
     return status;
 }

@@ -21,9 +21,8 @@ typedef struct scree_recorder {
     double last_progress, last_checkpoint, last_threads;
     int threads; ///< as the log has it
     uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
-    double stepping;         ///< s of wall time in the stepping loop
-    double in_steps;         ///< s of it within steps that evaluate forces: without preparation, samples, files
-    uint64_t evaluations;    ///< of forces in them
+    uint64_t first_evaluations; ///< at `started`
+    double stepping;            ///< s of wall time in the stepping loop
     scree_rank_counts counts;   ///< of all processes, when the stepping loop has ended
 } scree_recorder;
 

@@ -232,7 +232,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
 {
     char checksum[32];
     (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_state_checksum(&s->model, &s->state));
-    const double particle_steps = (double)recorder->evaluations * (double)s->state.count;
+    double steps = (double)(s->state.evaluations - recorder->first_evaluations);
     scree_summary_set_text(summary, "case", s->model.name);
     scree_summary_set_text(summary, "status", ""); // its place; scree_results_write sets it
     scree_summary_set_text(summary, "version", scree_version());
@@ -252,7 +252,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_text(summary, "state_checksum", checksum);
     scree_summary_set_integer(summary, "threads", s->work.threads);
     scree_summary_set_number(summary, "wall_time", s->state.spent.run);
-    scree_summary_set_number(summary, "particle_steps_per_second", particle_steps / recorder->in_steps);
+    scree_summary_set_number(summary, "particle_steps_per_second", steps * (double)s->state.count / s->in_steps);
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
     scree_rank_counts_results(&recorder->counts, summary);
 }

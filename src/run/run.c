@@ -53,18 +53,6 @@ static void save_before_refusal(scree_recorder *recorder, scree_simulation *s)
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "checkpoint before the step that is refused");
 }
 
-/// One step, with the time that it takes.
-static scree_status timed_step(scree_recorder *recorder, scree_simulation *s, scree_error *error)
-{
-    const uint64_t evaluations = s->state.evaluations;
-    const double begin = scree_clock();
-    scree_status status = scree_simulation_step(s, error);
-    if (s->state.evaluations == evaluations) return status;
-    recorder->in_steps += scree_clock() - begin;
-    recorder->evaluations += s->state.evaluations - evaluations;
-    return status;
-}
-
 /// Steps until the case ends, somebody asks to stop, or something fails.
 static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
@@ -82,7 +70,7 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
                                          (unsigned long long)s->state.step, stop, strsignal(stop), recorder->directory);
             break;
         }
-        status = timed_step(recorder, s, error);
+        status = scree_simulation_step(s, error);
         if (status && s->whole) save_before_refusal(recorder, s);
         if (!status) status = scree_recorder_follow(recorder, s, error);
     }

@@ -1,6 +1,7 @@
 /// Stages one after the other, a step at a time.
 #include "run/simulation.h"
 
+#include "base/clock.h"
 #include "base/processor.h"
 #include "comm/comm.h"
 #include "integrate/forced_spin.h"
@@ -230,7 +231,9 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
 /// A step by parts; what stops it is told of the whole state.
 static scree_status take_step(scree_simulation *s, scree_error *error)
 {
+    const double begin = scree_clock();
     scree_status status = scree_step(s, error);
+    s->in_steps += scree_clock() - begin;
     if (status != SCREE_ERROR_GUARD || !s->state.part || !s->work.flags) return status;
     status = scree_ranks_gather(s, "guards", error);
     if (!status) status = scree_ranks_acts(s) ? scree_guard_step(s, error) : SCREE_ERROR_GUARD;

@@ -47,11 +47,12 @@ struct scree_simulation {
     double *sample;                               ///< the last row of them
     bool has_sample;                              ///< there is a last one
     uint64_t samples_in_parts, samples_of_wholes; ///< taken since the begin of the process
-    bool sampled;                                 ///< the last step made a sample
-    bool stage_ended;                             ///< the last step ended a stage
-    char reason[192];                             ///< why it ended
-    char warning[512];                            ///< what a check has found, until it has been told; empty: nothing
-    bool whole;                                   ///< a step that failed has not begun: the state can be gone on from
+    double in_steps;   ///< s of wall time in steps since then, without begins of stages, samples and files
+    bool sampled;      ///< the last step made a sample
+    bool stage_ended;  ///< the last step ended a stage
+    char reason[192];  ///< why it ended
+    char warning[512]; ///< what a check has found, until it has been told; empty: nothing
+    bool whole;        ///< a step that failed has not begun: the state can be gone on from
     scree_own_force_list forces;
     scree_contact_point *points; ///< what the library has handed out
     size_t point_capacity;
