@@ -2,11 +2,11 @@
 #include "run/restart.h"
 
 #include "comm/comm.h"
+#include "comm/known.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
 #include "io/series.h"
 #include "run/ranks.h"
-#include "state/check.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -39,7 +39,10 @@ static scree_status check_stage(const scree_simulation *s, const scree_state *st
 
 scree_status scree_restart_check(const scree_simulation *s, const scree_state *state, scree_error *error)
 {
-    scree_status status = scree_state_check(state, &s->model, error);
+    scree_known_bodies known = {0};
+    scree_status status = state->part ? scree_known_bodies_ask(state, &known, error) : SCREE_OK;
+    if (!status) status = scree_state_check(state, &s->model, state->part ? &known : NULL, error);
+    scree_known_bodies_destroy(&known);
     return status ? status : check_stage(s, state, error);
 }
 

@@ -8,7 +8,8 @@
 /// The case of a run directory; all its problems fit into one error, the first.
 scree_status scree_restart_case(const char *directory, scree_case **c, scree_error *error) SCREE_MUST_USE;
 
-/// Whether every value of `state` is one that the run of `s` can have. Errors: SCREE_ERROR_IO with dataset, row, value.
+/// Whether every value of `state` is one that the run of `s` can have. All processes call it. Errors: SCREE_ERROR_IO
+/// with dataset, row, value.
 scree_status scree_restart_check(const scree_simulation *s, const scree_state *state,
                                  scree_error *error) SCREE_MUST_USE;
 

@@ -125,8 +125,27 @@ static void describe(const scree_field_range *range, double most, char *text, si
                        range->limit == SCREE_LIMIT_LAST_MATERIAL ? "a whole number, " : "", least, range->least, most);
 }
 
-static scree_status check_field(const scree_state *state, const scree_model *model, const scree_field *field,
-                                scree_error *error)
+/// The material of the body with this id; negative: there is none.
+static int material_of(const scree_state *state, const scree_known_bodies *known, uint32_t id)
+{
+    if (!known) {
+        const uint32_t row = scree_state_row_of(state, id);
+        return row == SCREE_NO_ROW ? -1 : scree_body_material(state, row);
+    }
+    size_t from = 0, to = known->count;
+    while (from < to) {
+        const size_t middle = from + (to - from) / 2;
+        if (known->body[middle].id == id) return known->body[middle].material;
+        if (known->body[middle].id < id)
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return -1;
+}
+
+static scree_status check_field(const scree_state *state, const scree_model *model, const scree_known_bodies *known,
+                                const scree_field *field, scree_error *error)
 {
     const scree_field_range *range = &field->range;
     bool real = field->type == SCREE_FIELD_DOUBLE || field->type == SCREE_FIELD_FLOAT;
@@ -142,9 +161,8 @@ static scree_status check_field(const scree_state *state, const scree_model *mod
         const unsigned char *at = shared ? scree_field_get(state, declared, row) : first + row * field->stride;
         for (int k = 0; k < components; k++, at += scree_field_size(declared->type)) {
             double value = number_of(declared->type, at);
-            // Of a part the others may be with other processes.
-            bool gone = !state->part && range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&
-                        scree_state_row_of(state, (size_t)value) == SCREE_NO_ROW;
+            const bool gone = range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&
+                              material_of(state, known, (uint32_t)value) < 0;
             if (is_inside(range, most, value) && !gone) continue;
             char accepted[96];
             describe(range, most, accepted, sizeof accepted);
@@ -161,19 +179,24 @@ static scree_status refuse_contact(const scree_state *state, size_t k, const cha
                            state->contact[k].first, state->contact[k].second, reason);
 }
 
-/// The number of the law that a contact has under the model.
-static int law_of(const scree_state *state, const scree_model *model, const scree_contact_memory *c)
+/// The number of the law that a contact has under the model. Materials of other processes have not been checked here.
+static int law_of(const scree_state *state, const scree_model *model, const scree_known_bodies *known,
+                  const scree_contact_memory *c)
 {
-    const int material = scree_body_material(state, scree_state_row_of(state, c->first));
-    if (c->second >= SCREE_WALL_ID) return model->law_of_walls[material];
+    const int materials = model->material_count + model->added_materials;
+    const int first = material_of(state, known, c->first);
+    if (first >= materials) return -1;
+    if (c->second >= SCREE_WALL_ID) return model->law_of_walls[first];
     if (c->second >= SCREE_PRIMITIVE_ID) return -1; // which wall a primitive is of, the walls themselves say
-    return model->law_of_pairs[material][scree_body_material(state, scree_state_row_of(state, c->second))];
+    const int second = material_of(state, known, c->second);
+    return second < materials ? model->law_of_pairs[first][second] : -1;
 }
 
 /// What a contact remembers is of the law that it has.
-static scree_status check_law(const scree_state *state, const scree_model *model, size_t k, scree_error *error)
+static scree_status check_law(const scree_state *state, const scree_model *model, const scree_known_bodies *known,
+                              size_t k, scree_error *error)
 {
-    const int law = state->pair_laws > 0 && !state->part ? law_of(state, model, &state->contact[k]) : -1;
+    const int law = state->pair_laws > 0 ? law_of(state, model, known, &state->contact[k]) : -1;
     if (law < 0 || law == state->contact_law[k]) return SCREE_OK;
     return scree_error_set(
         error, SCREE_ERROR_IO,
@@ -183,7 +206,8 @@ static scree_status check_law(const scree_state *state, const scree_model *model
 }
 
 /// Contacts: pairs of bodies by id, or of a body with a plate or an element of a wall, each once.
-static scree_status check_contacts(const scree_state *state, const scree_model *model, scree_error *error)
+static scree_status check_contacts(const scree_state *state, const scree_model *model, const scree_known_bodies *known,
+                                   scree_error *error)
 {
     for (size_t k = 0; k < state->contact_count; k++) {
         const scree_contact_memory *c = &state->contact[k];
@@ -192,10 +216,9 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
             return refuse_contact(state, k, "is no plate", error);
         if (element && model->wall_count == 0)
             return refuse_contact(state, k, "is of a wall that the case does not have", error);
-        bool gone = !state->part && scree_state_row_of(state, c->second) == SCREE_NO_ROW;
-        if (!plate && !element && (gone || c->second < c->first))
+        if (!plate && !element && (c->second < c->first || material_of(state, known, c->second) < 0))
             return refuse_contact(state, k, "is no body, or one with a lower id", error);
-        scree_status status = check_law(state, model, k, error);
+        scree_status status = check_law(state, model, known, k, error);
         if (status) return status;
         if (k == 0) continue;
         const scree_contact_memory *before = c - 1;
@@ -219,7 +242,30 @@ static scree_status check_frame(const scree_state *state, const scree_model *mod
     return SCREE_OK;
 }
 
-scree_status scree_state_check(const scree_state *state, const scree_model *model, scree_error *error)
+/// A field of ids of bodies.
+static void name_values(const scree_state *state, const scree_field *field, void (*name)(void *context, uint32_t id),
+                        void *context)
+{
+    const size_t rows = scree_field_rows_count(state, field);
+    for (size_t row = 0; row < rows; row++) {
+        const double value = number_of(field->type, scree_field_get(state, field, row));
+        if (value >= 0 && value < SCREE_PRIMITIVE_ID) name(context, (uint32_t)value);
+    }
+}
+
+void scree_state_each_named(const scree_state *state, void (*name)(void *context, uint32_t id), void *context)
+{
+    for (size_t k = 0; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
+        if (field->range.limit == SCREE_LIMIT_BODY && scree_field_is_stored(state, field))
+            name_values(state, field, name, context);
+    }
+    for (size_t k = 0; k < state->contact_count; k++)
+        if (state->contact[k].second < SCREE_PRIMITIVE_ID) name(context, state->contact[k].second);
+}
+
+scree_status scree_state_check(const scree_state *state, const scree_model *model, const scree_known_bodies *known,
+                               scree_error *error)
 {
     // Before the first birth there is none.
     if (scree_state_total(state) == 0 && model->source_count == 0)
@@ -227,8 +273,8 @@ scree_status scree_state_check(const scree_state *state, const scree_model *mode
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < scree_field_total() && !status; k++)
         if (scree_field_is_stored(state, scree_field_at(k)))
-            status = check_field(state, model, scree_field_at(k), error);
-    if (!status) status = check_contacts(state, model, error);
+            status = check_field(state, model, known, scree_field_at(k), error);
+    if (!status) status = check_contacts(state, model, known, error);
     for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
         if (scree_modules[m]->check) status = scree_modules[m]->check(state, model, error);
     return status ? status : check_frame(state, model, error);

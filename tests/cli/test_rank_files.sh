@@ -6,7 +6,7 @@
 . "$(dirname "$0")/processes.sh"
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
-need_processes compare_states
+need_processes compare_states forge_part
 tools=$(dirname "$scree")/tests
 
 # --- bonds that break in a sheared cell, in arrays that are large; polygons with corners and discs that fall and are taken
@@ -120,6 +120,41 @@ for delay in 0 0.003 0.02; do
         checks=$((checks + 1)); grep -q 'goes on from step [1-9]' again/log.txt || complain "the run goes on from its begin"
     done
 done
+
+# --- a checkpoint that names a body which no process has, or one that was never given: the older one serves, and says why
+# stop_at CASE STEPS CHECKPOINT: `killed`, a run that is killed when this checkpoint, one each so many steps, is there
+stop_at() {
+    rm -rf killed
+    "$scree" run "$1.yaml" -o killed --set output.checkpoint_steps="$2" --quiet --threads 1 2>/dev/null &
+    local job=$!
+    for ((i = 0; i < 20000; i++)); do [ -e "killed/parts/checkpoint-00000$3.h5" ] && break; sleep 0.002; done
+    kill -9 $job
+    checks=$((checks + 1)); wait $job 2>/dev/null && complain "$1 had ended before it was killed"
+    newest=$(basename "$(find killed/parts -name 'checkpoint-*.h5' | sort | tail -n 1)")
+}
+# forged CASE WORDS [DATASET ROW VALUE]...: in the newest checkpoint
+forged() {
+    local name=$1 words=$2 number ranks
+    shift 2
+    rm -rf forged
+    cp -r killed forged
+    number=$(grep -o '[0-9]\{6\}' <<<"$newest")
+    while [ $# -gt 0 ]; do
+        checks=$((checks + 1)); "$tools/forge_part" "forged/parts/$newest" "$((10#$number))" "$1" "$2" "$3" || complain "$newest cannot be forged"
+        shift 3
+    done
+    for ranks in 1 2 3; do
+        rm -rf again
+        cp -r forged again
+        expect 0 "checkpoint [0-9]* is used: .*$newest.*$words" on "$ranks" --restart again
+        same "$(checksum again)" "$(checksum one-"$name")" "restart on $ranks processes from the checkpoint before a forged one"
+    done
+}
+stop_at bonded 16 3
+forged bonded "dataset 'persistent/second', .* 700 .accepted: the id of a body that is here" scalars/next_id 0 701 persistent/second -1 700
+forged bonded "dataset 'id'" id 7 700
+stop_at roll 1000 6
+forged roll 'contacts/second.*: 500 is no body' scalars/next_id 0 501 contacts/second -1 500
 
 # --- ParaView files and figures; a disk that is full; a folder that is not shared
 expect 0 '|warning' "$scree" run heap.yaml -o seen-one --set output.paraview=yes --set output.figures=yes --threads 1 --quiet
