@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Speed of a run on several processes: a settled bed of 256,000 spheres (bench/data/bed32k.csv.gz eight times beside itself,
 # hertz_mindlin with history and ledger, steps of 1e-5 s), by one process of either build, by two threads and by two
-# processes, by two runs that have nothing to do with each other, and by LAMMPS where it is installed, in turn.
+# processes with parts by counts and by time, by two runs that have nothing to do with each other, and by LAMMPS where it is installed, in turn.
 # Usage: bench/ranks_speed.sh build/scree build-mpi/scree [TURNS [COPIES [STEPS]]]
 # Speed of STEPS (400) steps as the program itself takes it (`scree get DIR particle_steps_per_second`: reading, the last
 # snapshot and results are out of it). Each turn takes every way once; told are the medians of TURNS (5) and, as a machine
@@ -46,11 +46,12 @@ measure: {samples: 1, cells: no}
 output: {snapshots: 0, figures: no, paraview: no, checkpoint_interval: 1000000 s}
 guard: {stability: warn}
 YAML
-# speed FOLDER THREADS COMMAND...: particle-steps a second of a run.
+# speed FOLDER THREADS COMMAND...: particle-steps a second of a run, parts by $balance.
+balance=counts
 speed() {
     local folder=$1 threads=$2
     shift 2
-    "$@" run bed.yaml -o "$folder" --force --quiet --threads "$threads" --set stages.relax.duration="$((10 * steps)) us" </dev/null >"$folder.txt" 2>&1 ||
+    "$@" run bed.yaml --balance "$balance" -o "$folder" --force --quiet --threads "$threads" --set stages.relax.duration="$((10 * steps)) us" </dev/null >"$folder.txt" 2>&1 ||
         { cat "$folder.txt" >&2; return 1; }
     "$alone" get "$folder" particle_steps_per_second
 }
@@ -70,9 +71,9 @@ lammps() {
 }
 # median COLUMN FILE: the median, the least and the largest.
 median() { cut -d' ' -f"$1" "$2" | sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int((NR + 2) / 2)]) / 2, v[1], v[NR] }'; }
-names=("one process" "one process, built with MPI" "two threads" "two processes" "two runs of one process beside each other" "LAMMPS, one process" "LAMMPS, two processes")
-ways=5
-command -v lmp >/dev/null && ways=7
+names=("one process" "one process, built with MPI" "two threads" "two processes" "two processes, parts by time" "two runs of one process beside each other" "LAMMPS, one process" "LAMMPS, two processes")
+ways=6
+command -v lmp >/dev/null && ways=8
 for ((turn = 0; turn < turns; turn++)); do
     for ((k = 0; k < ways; k++)); do
         case $k in
@@ -80,9 +81,10 @@ for ((turn = 0; turn < turns; turn++)); do
         1) value=$(speed out 1 "$together") ;;
         2) value=$(speed out 2 "$alone") ;;
         3) value=$(speed out 1 mpirun --bind-to core -n 2 "$together") ;;
-        4) value=$(beside) ;;
-        5) value=$(lammps 1) ;;
-        6) value=$(lammps 2) ;;
+        4) value=$(balance=time && speed out 1 mpirun --bind-to core -n 2 "$together") ;;
+        5) value=$(beside) ;;
+        6) value=$(lammps 1) ;;
+        7) value=$(lammps 2) ;;
         esac
         echo "$turn $k $value"
     done

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Scree needs and that are missing, as root or through sudo. Where neither is possible
 # (or with --check, always) it prints the one command to run and stops with status 1. On other systems than Debian it
-# leaves the matter to CMake. --reproduce: what published experiments are compared with; --site: what makes the pages of `make site`.
+# leaves the matter to CMake. --reproduce: what published experiments are compared with; --site: what makes the pages of `make site`;
+# --mpi: what the preset mpi builds with, and its tests look into files with.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 command -v dpkg-query >/dev/null || exit 0
 list=debian-packages.txt
 [ "${1-}" = --reproduce ] && list=debian-packages-reproduce.txt
+[ "${1-}" = --mpi ] && list=debian-packages-mpi.txt
 [ "${1-}" = --site ] && list=debian-packages-site.txt
 missing=()
 while read -r package; do

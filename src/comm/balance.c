@@ -3,12 +3,18 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "comm/comm.h"
 #include "comm/traffic.h"
 #include "state/sleep.h"
 
+#include <math.h>
+
 enum { BODY = 4, SLEEPER = 1, TOUCHING = 4, NEAR = 1 };
+enum { WINDOW = 400 }; ///< steps
 #define NANOSECONDS 1e9
 #define SHORTEST    0.1 /* s, of a time by which processes are compared */
+
+// ---- time --------------------------------------------------------------------------------------------------------
 
 static double waited(void)
 {
@@ -17,17 +23,23 @@ static double waited(void)
     return seconds;
 }
 
-void scree_balance_begin(scree_balance *balance)
+void scree_balance_begin(scree_balance *balance, bool by_costs)
 {
-    balance->begun = scree_clock();
-    balance->waited = waited();
+    *balance = (scree_balance){.left = by_costs ? INFINITY : 0, .begun = balance->begun};
 }
 
-/// Seconds of work since the last cut.
-static double worked(const scree_balance *balance)
+void scree_balance_begin_step(scree_balance *balance)
 {
-    return scree_clock() - balance->begun - (waited() - balance->waited);
+    balance->begun = scree_clock() - waited();
 }
+
+void scree_balance_end_step(scree_balance *balance)
+{
+    balance->worked += scree_clock() - waited() - balance->begun;
+    balance->steps++;
+}
+
+// ---- what a part costs -------------------------------------------------------------------------------------------
 
 static int64_t count_cost(const scree_state *state, const scree_work *work)
 {
@@ -43,15 +55,53 @@ static int64_t count_cost(const scree_state *state, const scree_work *work)
     return cost;
 }
 
-int64_t scree_balance_cost(const scree_balance *balance, const scree_state *state, const scree_work *work)
+/// The costs of all parts: the largest, and the mean.
+typedef struct costs {
+    double largest, mean;
+} costs;
+
+static costs compare(const scree_state *state, int64_t own)
 {
-    return work->parts_by_time ? (int64_t)(worked(balance) * NANOSECONDS) : count_cost(state, work);
+    int64_t sum = own;
+    costs c = {.largest = (double)own};
+    scree_comm_maximum(state, &c.largest, 1);
+    scree_comm_add(state, &sum, 1);
+    c.mean = (double)sum / scree_comm_size();
+    return c;
 }
 
-double scree_balance_slack(const scree_work *work)
+// ---- whether a cut pays ------------------------------------------------------------------------------------------
+
+/// By counts, of the steps since the last list; two bodies are no reason.
+static bool pays_by_counts(scree_balance *balance, const costs *c)
 {
-    return work->parts_by_time ? SHORTEST * NANOSECONDS : 2 * BODY;
+    const double excess = fmax(0, (c->largest - 2 * BODY) / c->mean - 1);
+    balance->left = fmin(balance->left, excess);
+    balance->lost += (double)(balance->steps - balance->seen) * (excess - balance->left);
+    balance->seen = balance->steps;
+    return balance->lost > SCREE_BALANCE_CUT_STEPS;
 }
+
+/// By times, of all steps of the window.
+static bool pays_by_time(scree_balance *balance, const costs *c)
+{
+    if (c->mean < SHORTEST * NANOSECONDS) return false;
+    balance->lost = (double)balance->steps * (c->largest / c->mean - 1);
+    const bool pays = balance->lost > SCREE_BALANCE_CUT_STEPS;
+    if (!pays && balance->steps > WINDOW) scree_balance_begin(balance, true);
+    return pays;
+}
+
+bool scree_balance_pays(scree_balance *balance, const scree_state *state, const scree_work *work, double *worst)
+{
+    const bool by_time = work->parts_by_time;
+    const costs c = compare(state, by_time ? (int64_t)(balance->worked * NANOSECONDS) : count_cost(state, work));
+    if (!(c.mean > 0)) return false;
+    *worst = fmax(*worst, c.largest / c.mean);
+    return by_time ? pays_by_time(balance, &c) : pays_by_counts(balance, &c);
+}
+
+// ---- by what space is cut ----------------------------------------------------------------------------------------
 
 /// Half of the cost to each of the two, all of it to one whose partner is not here.
 static void weigh_pairs(const scree_state *state, const scree_pair_list *pairs, size_t begin, size_t end, float cost,
@@ -80,7 +130,7 @@ scree_status scree_balance_weights(const scree_balance *balance, const scree_sta
     }
     if (work->parts_by_time) {
         const int64_t cost = count_cost(state, work);
-        const float rate = cost > 0 ? (float)(worked(balance) * NANOSECONDS / (double)cost) : 1;
+        const float rate = cost > 0 ? (float)(balance->worked * NANOSECONDS / (double)cost) : 1;
         for (size_t row = 0; row < state->count; row++) (*weight)[row] *= rate;
     }
     return SCREE_OK;

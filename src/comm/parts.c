@@ -2,8 +2,7 @@
 /// process to another.
 ///
 /// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
-/// when a state is spread, by bodies, and anew when the part that costs most (comm/balance.h) has SCREE_PARTS_IMBALANCE
-/// times the mean. Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every
+/// when a state is spread, by bodies, and anew, by costs, when that pays (comm/balance.h). Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every
 /// list, from a seed.
 #include "comm/parts.h"
 
@@ -25,7 +24,7 @@ scree_status scree_parts_open(scree_work *work, scree_error *error)
     if (!status) status = scree_allocate(&work->parts->send, size, sizeof *work->parts->send, error);
     if (!status) status = scree_allocate(&work->parts->receive, size, sizeof *work->parts->receive, error);
     const char *seed = getenv("SCREE_RANDOM_PARTS");
-    if (!status) scree_balance_begin(&work->parts->balance);
+    if (!status) scree_balance_begin(&work->parts->balance, false);
     if (!status && seed) work->parts->seed = strtoull(seed, NULL, 10);
     return status;
 }
@@ -79,25 +78,13 @@ scree_status scree_parts_cut(const scree_state *state, scree_parts *parts, const
     return status;
 }
 
-static bool out_of_balance(const scree_state *state, const scree_work *work)
-{
-    scree_parts *parts = work->parts;
-    int64_t sum = scree_balance_cost(&parts->balance, state, work);
-    double largest = (double)sum;
-    scree_comm_maximum(state, &largest, 1);
-    scree_comm_add(state, &sum, 1);
-    const double mean = (double)sum / scree_comm_size();
-    parts->worst = mean > 0 ? fmax(parts->worst, largest / mean) : parts->worst;
-    return largest > SCREE_PARTS_IMBALANCE * mean + scree_balance_slack(work);
-}
-
 /// By what they cost, while the last list holds.
 static scree_status cut_anew(const scree_state *state, scree_work *work, scree_error *error)
 {
     float *weight = NULL;
     scree_status status = scree_balance_weights(&work->parts->balance, state, work, &weight, error);
     if (!status) status = scree_parts_cut(state, work->parts, weight, error);
-    scree_balance_begin(&work->parts->balance);
+    scree_balance_begin(&work->parts->balance, true);
     scree_release(&weight);
     return status;
 }
@@ -344,7 +331,7 @@ scree_status scree_parts_migrate(scree_state *state, scree_work *work, scree_err
     int32_t *to = NULL;
     scree_status status = scree_pair_sets_list(state, work, set, &sets, error);
     if (status) return status;
-    if (out_of_balance(state, work)) status = cut_anew(state, work, error);
+    if (scree_balance_pays(&parts->balance, state, work, &parts->worst)) status = cut_anew(state, work, error);
     if (!status) status = scree_allocate(&to, scree_row_count(state, work) + 1, sizeof *to, error);
     if (status) return status;
     scree_parts_choose(state, parts, to);

@@ -60,9 +60,6 @@ typedef struct scree_parts {
     double worst;          ///< cost of the part that costs most over the mean, largest when a list was due
 } scree_parts;
 
-/// Cost of a part (comm/balance.h) over the mean from which on space is cut anew when a list is made.
-#define SCREE_PARTS_IMBALANCE 1.1
-
 /// Process 0 has the whole sample, or none of the processes has a body yet.
 bool scree_parts_are_whole(const scree_work *work);
 
@@ -126,8 +123,9 @@ scree_status scree_parts_reserve_messages(const scree_state *state, scree_work *
 void scree_parts_send(scree_state *state, scree_work *work, scree_message_kind kind, const scree_message_shift *shift);
 void scree_parts_add_back(scree_state *state, scree_work *work);
 
-/// A step has been taken by this part.
-void scree_parts_count_step(const scree_state *state, scree_work *work);
+/// This part takes a step; it has been taken.
+void scree_parts_begin_step(scree_work *work);
+void scree_parts_end_step(const scree_state *state, scree_work *work);
 
 void scree_parts_destroy(scree_work *work);
 

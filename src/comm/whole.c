@@ -250,6 +250,7 @@ static scree_status plan(scree_state *state, scree_work *work, scree_directory *
     state->id_count = state->next_id;
     scree_status status = scree_row_table_begin(state, 0, error);
     if (!status) status = scree_parts_cut(state, work->parts, NULL, error);
+    scree_balance_begin(&work->parts->balance, false);
     if (!status) status = scree_allocate(to, state->count + 1, sizeof **to, error);
     if (status) return status;
     scree_parts_choose(state, work->parts, *to);

@@ -6,9 +6,9 @@
 /// bodies of others.
 ///
 /// Time. Steps are divided; a ghost costs as much as a body, and the fullest part counts, which may have
-/// SCREE_PARTS_IMBALANCE times the mean before space is cut anew. Preparation is not divided, nor is what process 0
-/// does with the whole sample: a list of its pairs where it looks at it, samples, files and figures. Messages are left
-/// out: they depend on the network.
+/// SCREE_BALANCE_EXPECTED times the mean. Preparation is not divided, nor is what process 0 does with the whole sample:
+/// a list of its pairs where it looks at it, samples, files and figures. Messages are left out: they depend on the
+/// network.
 ///
 /// Memory. Process 0 has the whole sample where it prepares it and where somebody looks at it; another one has its
 /// part, the fullest one here, and ghosts.
@@ -69,7 +69,7 @@ scree_status scree_case_divide(const scree_case *c, const scree_case_summary *su
     const double all = (double)summary->particles, bodies = all / processes;
     const double ghosts = ghosts_of(model.dimension, bodies, all);
     const double steps = summary->stepping - summary->preparation;
-    const double fullest = processes > 1 ? SCREE_PARTS_IMBALANCE : 1;
+    const double fullest = processes > 1 ? SCREE_BALANCE_EXPECTED : 1;
     *rank = (scree_case_rank){.bodies = bodies,
                               .ghosts = ghosts,
                               .sent = ghosts * layers[model.dimension == 3].bytes,

@@ -192,8 +192,10 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
 {
     const scree_context context = scree_step_context(s);
     scree_status status = SCREE_OK;
+    const bool part = s->state.part;
+    if (part) scree_parts_begin_step(&s->work);
     for (size_t k = 0; k < s->pass_count && !status; k++) status = run_pass(s, &s->passes[k], &context, error);
-    if (!status && s->state.part) scree_parts_count_step(&s->state, &s->work);
+    if (!status && part) scree_parts_end_step(&s->state, &s->work);
     return status;
 }
 

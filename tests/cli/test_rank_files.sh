@@ -7,6 +7,7 @@
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
 need_processes compare_states forge_part
+command -v h5diff >/dev/null || skip 'there is no h5diff (hdf5-tools)'
 tools=$(dirname "$scree")/tests
 
 # --- bonds that break in a sheared cell, in arrays that are large; polygons with corners and discs that fall and are taken
@@ -70,7 +71,6 @@ declare -A steps=([bonded]=100 [heap]=900 [roll]=2500)
 
 # What figures and people read of snapshots, beside the states.
 same_snapshots() {
-    command -v h5diff >/dev/null || return
     local snapshot
     for snapshot in $(h5ls "$1/run.h5/snapshots" | cut -d' ' -f1); do
         checks=$((checks + 1))
