@@ -17,8 +17,8 @@
 
 #include "state/work.h"
 
-/// What a cut is reckoned to cost, in steps. Measured: 0.6 of 128,000 spheres a process (8 ms), and what the bodies that
-/// move cost beside; more where steps are short.
+/// What a cut is reckoned to cost, in steps. Measured: 0.6 of 128,000 spheres a process (8 ms), and what the bodies
+/// that move cost beside; more where steps are short.
 #define SCREE_BALANCE_CUT_STEPS 4
 
 /// Cost of the part that costs most over the mean that memory and time are expected with (run/divide.c): what is lost

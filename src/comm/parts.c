@@ -2,8 +2,8 @@
 /// process to another.
 ///
 /// Bodies move when a list is made: each to the process in whose part of space it lies. Space is cut (comm/zoltan.c)
-/// when a state is spread, by bodies, and anew, by costs, when that pays (comm/balance.h). Between two lists a body stays where it is, however it moves. For tests bodies go anywhere, at every
-/// list, from a seed.
+/// when a state is spread, by bodies, and anew, by costs, when that pays (comm/balance.h). Between two lists a body
+/// stays where it is, however it moves. For tests bodies go anywhere, at every list, from a seed.
 #include "comm/parts.h"
 
 #include "base/checksum.h"
