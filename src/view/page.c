@@ -149,7 +149,8 @@ void scree_text_show(cairo_t *cairo, double x, double y, double anchor, const ch
     cairo_new_path(cairo);
 }
 
-/// Number of bytes of `text` that go on one line: up to the last space that fits, at least one word.
+/// Number of bytes of `text` that go on one line: up to the last space that fits, at least one word. A number keeps its
+/// percent sign.
 static size_t line_length(cairo_t *cairo, const char *text, double width, scree_text_style style)
 {
     char line[1024];
@@ -157,6 +158,7 @@ static size_t line_length(cairo_t *cairo, const char *text, double width, scree_
     while (text[end]) {
         end += strspn(text + end, " ");
         end += strcspn(text + end, " ");
+        if (strncmp(text + end, " %", 2) == 0) end += 1 + strcspn(text + end + 1, " ");
         if (end >= sizeof line) break;
         memcpy(line, text, end);
         line[end] = '\0';

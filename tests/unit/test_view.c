@@ -54,6 +54,30 @@ static void colours_clamp_and_undefined_is_grey(void **state)
     assert_true(grey.red == grey.green && grey.green == grey.blue);
 }
 
+// ---- text ---------------------------------------------------------------------------------------------------------
+
+/// A line may be as wide as `words` are.
+static double lines_of(cairo_t *cairo, const char *text, const char *words)
+{
+    const scree_text_style style = {.size = 10};
+    const double width = scree_text_width(cairo, words, style) + 1e-6;
+    return scree_text_paragraph(cairo, 0, 0, width, text, style) / (1.25 * style.size);
+}
+
+static void lines_break_at_spaces_and_not_before_a_percent_sign(void **state)
+{
+    (void)state;
+    cairo_surface_t *surface = cairo_recording_surface_create(CAIRO_CONTENT_COLOR, NULL);
+    cairo_t *cairo = cairo_create(surface);
+    assert_int_equal(lround(lines_of(cairo, "from 7.9 to 12 %", "from 7.9 to 12 %")), 1);
+    assert_int_equal(lround(lines_of(cairo, "from 7.9 to 12 %", "from 7.9 to 12")), 2);
+    assert_int_equal(lround(lines_of(cairo, "12 mm", "12")), 2);
+    assert_int_equal(lround(lines_of(cairo, "12 %", "12")), 1);
+    assert_int_equal(lround(lines_of(cairo, "12 %, and 13 % more", "13 %")), 4);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(surface);
+}
+
 // ---- sections of cells --------------------------------------------------------------------------------------------
 
 /// Tetrahedra of a unit cube with points inside.
@@ -609,6 +633,7 @@ static void round_walls_have_an_outline(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_break_at_spaces_and_not_before_a_percent_sign),
         cmocka_unit_test(round_walls_have_an_outline),
         cmocka_unit_test(sequential_lightness_falls_evenly),
         cmocka_unit_test(diverging_lightness_falls_evenly_to_both_sides),
