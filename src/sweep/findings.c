@@ -72,6 +72,7 @@ static bool read_summary(scree_finding *finding)
     finding->friction = number_of(summary, "confine_friction");
     finding->solid_fraction = number_of(summary, "solid_fraction_at_start");
     finding->gap_scatter = number_of(summary, "packing_gap_scatter");
+    finding->unbalanced = number_of(summary, "earlier_unbalanced");
     finding->coordination = number_of(summary, "coordination_at_start");
     (void)snprintf(finding->build, sizeof finding->build, "%s", commit && commit[0] ? commit : version ? version : "");
     json_decref(summary);
@@ -83,6 +84,7 @@ static const scree_finding nothing = {.state = SCREE_FINDING_MISSING,
                                       .friction = NAN,
                                       .solid_fraction = NAN,
                                       .gap_scatter = NAN,
+                                      .unbalanced = NAN,
                                       .coordination = NAN};
 
 /// A run by itself, when it has ended.
@@ -221,6 +223,7 @@ bool scree_finding_is(const scree_finding *f, const scree_reference *reference, 
 bool scree_finding_same_sample(const scree_finding *a, const scree_finding *b)
 {
     const bool unmeasured = isnan(a->solid_fraction) && isnan(b->solid_fraction);
-    const bool alike = unmeasured ? a->gap_scatter == b->gap_scatter : a->solid_fraction == b->solid_fraction;
+    const bool alike = unmeasured ? a->gap_scatter == b->gap_scatter || a->unbalanced == b->unbalanced
+                                  : a->solid_fraction == b->solid_fraction;
     return a == b || (a->seed == b->seed && a->particles == b->particles && alike);
 }

@@ -27,7 +27,8 @@ typedef struct scree_finding {
     char ensemble[PATH_MAX]; ///< folder of the averages over the members of its point; "" for a run by itself
     // What the sample and the program were, of one that is done; NAN and "" where the run does not say.
     double particles, friction, solid_fraction, coordination;
-    double gap_scatter; ///< of a dense packing, whose solid fraction no boundary may measure
+    // Where no boundary has measured a solid fraction: of a dense packing, and of the state that a change begins with.
+    double gap_scatter, unbalanced;
     char build[128];
 } scree_finding;
 
@@ -62,7 +63,8 @@ bool scree_reference_read(const char *text, scree_reference *reference);
 bool scree_finding_is(const scree_finding *finding, const scree_reference *reference, scree_finding_form form);
 
 /// Whether two runs had the same sample: seed, number of particles, and solid fraction at the begin of loading to all
-/// digits (the same deposition, confined alike); where neither has one, the scatter of the gaps of its packing.
+/// digits (the same deposition, confined alike); where neither has one, the scatter of the gaps of its packing, or the
+/// unbalanced ratio of the state that they were compared with (increments: the same pile, changed in other ways).
 bool scree_finding_same_sample(const scree_finding *a, const scree_finding *b);
 
 #endif

@@ -169,7 +169,8 @@ typedef struct run {
     double solid, value; ///< value NAN: null
     double friction;
     const char *build;
-    double gaps; ///< of its packing, where no solid fraction was measured: `solid` NAN
+    double gaps;       ///< of its packing, where no solid fraction was measured: `solid` NAN
+    double unbalanced; ///< of the state before a change, above zero, in place of `gaps`
 } run;
 
 static void write_text(const char *path, const char *text)
@@ -203,8 +204,12 @@ static void write_sweep(const char *name, const char *point, const run *runs, si
         if (strcmp(runs[i].status, "done") != 0) continue;
         (void)snprintf(path, sizeof path, "%s/%s-%s/members/%d", folder, name, point, runs[i].seed);
         assert_int_equal(mkdir(path, 0777), 0);
-        (void)snprintf(solid, sizeof solid, isnan(runs[i].solid) ? "null, \"packing_gap_scatter\": %.17g" : "%.17g",
-                       isnan(runs[i].solid) ? runs[i].gaps : runs[i].solid);
+        const char *const other = runs[i].unbalanced > 0 ? "earlier_unbalanced" : "packing_gap_scatter";
+        if (isnan(runs[i].solid))
+            (void)snprintf(solid, sizeof solid, "null, \"%s\": %.17g", other,
+                           runs[i].unbalanced > 0 ? runs[i].unbalanced : runs[i].gaps);
+        else
+            (void)snprintf(solid, sizeof solid, "%.17g", runs[i].solid);
         (void)snprintf(value, sizeof value, isnan(runs[i].value) ? "null" : "%.17g", runs[i].value);
         (void)snprintf(text, sizeof text,
                        "{\"status\": \"done\", \"version\": \"0\", \"commit\": \"%s\", \"particles\": 100, "
@@ -340,6 +345,26 @@ static void packings_are_paired(void **state)
     assert_remark(&others, "not of the same samples");
 }
 
+/// Piles that are changed in two ways: by what was unbalanced before. Pairs have the ratio 2; those of `c` were built
+/// in another way.
+static void changes_of_one_state_are_paired(void **state)
+{
+    (void)state;
+#define PILE(n, before, result)                                                                                        \
+    {                                                                                                                  \
+        .seed = (n), .status = "done", .solid = NAN, .unbalanced = (before), .value = (result)                         \
+    }
+    const run a[] = {PILE(1, 1e-12, 10), PILE(2, 2e-12, 200)}, b[] = {PILE(1, 1e-12, 5), PILE(2, 2e-12, 100)},
+              c[] = {PILE(1, 1e-12, 5), PILE(2, nextafter(2e-12, 1), 100)};
+    write_sweep("s", "a", a, 2);
+    write_sweep("s", "b", b, 2);
+    write_sweep("s", "c", c, 2);
+    assert_int_equal(answer_to("given: 2, value: s/a.r / s/b.r, criterion: within 1 %").verdict, SCREE_AGREES);
+    scree_answer others = answer_to("given: 2, value: s/a.r / s/c.r, criterion: within 1 %");
+    assert_int_equal(others.verdict, SCREE_UNDECIDED);
+    assert_remark(&others, "not of the same samples");
+}
+
 /// Of other solid fractions at the begin: means of the logarithms 1 and 3 and of 5 and 7 (see above), not pairs.
 static void other_samples_are_not_paired(void **state)
 {
@@ -395,7 +420,7 @@ static void few_samples_do_not_prove_a_comparison(void **state)
 static void mixed_builds_and_preparations_show(void **state)
 {
     (void)state;
-    const run runs[] = {DONE(1, 0.8, 2), {2, "done", 0.81, 3, 0.2, "two", 0}};
+    const run runs[] = {DONE(1, 0.8, 2), {2, "done", 0.81, 3, 0.2, "two", 0, 0}};
     write_sweep("s", "p", runs, 2);
     scree_answer a = answer_to("given: x, value: s/p.r, criterion: greater than 0");
     assert_remark(&a, "builds differ: one, two");
@@ -492,6 +517,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(one_sample_decides_only_what_is_deterministic, begin, end),
         cmocka_unit_test_setup_teardown(same_samples_are_paired, begin, end),
         cmocka_unit_test_setup_teardown(packings_are_paired, begin, end),
+        cmocka_unit_test_setup_teardown(changes_of_one_state_are_paired, begin, end),
         cmocka_unit_test_setup_teardown(other_samples_are_not_paired, begin, end),
         cmocka_unit_test_setup_teardown(sums_of_other_samples_need_brackets, begin, end),
         cmocka_unit_test_setup_teardown(few_samples_do_not_prove_a_comparison, begin, end),
