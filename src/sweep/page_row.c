@@ -101,19 +101,52 @@ static bool read_cells(const char *cells, scree_page_rows *rows, bool *counted)
     return true;
 }
 
-bool scree_page_row_read(const char *section, size_t length, const scree_statement *s, scree_page_rows *rows)
+/// Calls `take` with what follows the beginning of each row of the statement. False: no memory, or `take` says so.
+static bool each_row(const char *section, size_t length, const scree_statement *s,
+                     bool (*take)(void *context, const char *line, const char *cells), void *context)
 {
     char *first = beginning(s, true), *later = beginning(s, false);
-    bool found = false, counted = false, readable = first && later;
-    *rows = (scree_page_rows){.verdict = SCREE_NOT_RUN};
-    for (const char *line = section; readable && line < section + length; line = strchr(line, '\n') + 1) {
+    bool found = false, good = first && later;
+    for (const char *line = section; good && line < section + length; line = strchr(line, '\n') + 1) {
         const char *start = found ? later : first;
         if (!strchr(line, '\n')) break;
         if (strncmp(line, start, strlen(start)) != 0) continue;
-        readable = read_cells(line + strlen(start), rows, &counted);
+        good = take(context, line, line + strlen(start));
         found = true;
     }
     free(first);
     free(later);
-    return readable && found && counted;
+    return good;
+}
+
+typedef struct reading {
+    scree_page_rows *rows;
+    bool found, counted;
+} reading;
+
+static bool read_row(void *context, const char *line, const char *cells)
+{
+    reading *r = context;
+    (void)line;
+    r->found = true;
+    return read_cells(cells, r->rows, &r->counted);
+}
+
+bool scree_page_row_read(const char *section, size_t length, const scree_statement *s, scree_page_rows *rows)
+{
+    reading r = {.rows = rows};
+    *rows = (scree_page_rows){.verdict = SCREE_NOT_RUN};
+    return each_row(section, length, s, read_row, &r) && r.found && r.counted;
+}
+
+static bool copy_row(void *context, const char *line, const char *cells)
+{
+    (void)cells;
+    (void)fprintf(context, "%.*s\n", (int)(strchr(line, '\n') - line), line);
+    return true;
+}
+
+bool scree_page_row_copy(const char *section, size_t length, const scree_statement *s, FILE *file)
+{
+    return each_row(section, length, s, copy_row, file);
 }

@@ -24,4 +24,7 @@ typedef struct scree_page_rows {
 /// it word for word (kind, statement, source, value, criterion), or no verdict counts. Errors: memory (false).
 bool scree_page_row_read(const char *section, size_t length, const scree_statement *s, scree_page_rows *rows);
 
+/// Writes these rows as they stand there. Errors: memory (false).
+bool scree_page_row_copy(const char *section, size_t length, const scree_statement *s, FILE *file);
+
 #endif

@@ -1,7 +1,6 @@
 /// Sections of a page that was written before. Runs may be gone while the page still tells what they gave: a section
-/// that rests on more of them than the folders hold stays as it is.
+/// that rests on more of them than the folders hold stays as it is, and so do rows of single statements.
 #include "sweep/page_section.h"
-#include "sweep/page_row.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -43,14 +42,27 @@ static bool weigh(const scree_page_section *section, const scree_statement_group
     return true;
 }
 
+static bool weigh_more(const scree_page_rows *mine, const scree_page_rows *theirs)
+{
+    if (mine->full != theirs->full) return mine->full > theirs->full;
+    if (mine->others != theirs->others) return mine->others > theirs->others;
+    return mine->planned > theirs->planned;
+}
+
 bool scree_page_section_outweighs(const scree_page_section *section, const scree_page_section *other,
                                   const scree_statement_group *group)
 {
     scree_page_rows mine, theirs;
     if (section->length == 0 || !weigh(section, group, &mine) || !weigh(other, group, &theirs)) return false;
-    if (mine.full != theirs.full) return mine.full > theirs.full;
-    if (mine.others != theirs.others) return mine.others > theirs.others;
-    return mine.planned > theirs.planned || theirs.planned == 0;
+    return weigh_more(&mine, &theirs) || theirs.planned == 0;
+}
+
+bool scree_page_section_outweighs_in(const scree_page_section *section, const scree_page_section *other,
+                                     const scree_statement *s, scree_page_rows *rows)
+{
+    scree_page_rows theirs;
+    return section->length > 0 && scree_page_row_read(section->text, section->length, s, rows) &&
+           scree_page_row_read(other->text, other->length, s, &theirs) && weigh_more(rows, &theirs);
 }
 
 void scree_page_section_count(const scree_page_section *section, const scree_statement_group *group,

@@ -2,6 +2,7 @@
 #ifndef SCREE_SWEEP_PAGE_SECTION_H
 #define SCREE_SWEEP_PAGE_SECTION_H
 
+#include "sweep/page_row.h"
 #include "sweep/verdict.h"
 
 typedef size_t scree_page_counts[SCREE_CLASSES][SCREE_VERDICTS];
@@ -20,6 +21,10 @@ scree_page_section scree_page_section_find(const char *page, const char *source,
 /// rests on nothing at all outweighs nothing.
 bool scree_page_section_outweighs(const scree_page_section *section, const scree_page_section *other,
                                   const scree_statement_group *group);
+
+/// The same of one statement, where something was asked for at least: *rows are those that stand there.
+bool scree_page_section_outweighs_in(const scree_page_section *section, const scree_page_section *other,
+                                     const scree_statement *s, scree_page_rows *rows);
 
 /// Adds the verdicts that count.
 void scree_page_section_count(const scree_page_section *section, const scree_statement_group *group,

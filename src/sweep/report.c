@@ -24,6 +24,7 @@ typedef struct page {
     const char *source;
     scree_page_counts *counts; ///< of the source
     FILE *explained;           ///< notes below the table of a case
+    scree_page_section former; ///< of a case whose rows may stay: those that rest on more than the folders hold
     const scree_report_options *options;
     scree_error *error;
 } page;
@@ -35,20 +36,23 @@ static bool concerns(const scree_statement *s, int form)
     return (s->form == SCREE_FORM_QUICK) == (form == SCREE_FINDING_QUICK);
 }
 
-static void put_notes(const page *p, const scree_statement *s, const scree_answer answer[SCREE_FINDING_FORMS],
-                      const bool shown[SCREE_FINDING_FORMS])
+/// `open`: the verdict is no agreement.
+static void put_notes(const page *p, const scree_statement *s, bool open)
 {
-    bool open = false;
-    for (int form = 0; form < SCREE_FINDING_FORMS; form++)
-        open |= shown[form] && (answer[form].verdict == SCREE_DIFFERS || answer[form].verdict == SCREE_UNDECIDED);
     if (open && s->explanation[0]) (void)fprintf(p->explained, "- %s: %s\n", s->id, s->explanation);
     if (s->form != SCREE_FORM_ANY)
         (void)fprintf(p->explained, "- %s, %s form only: %s\n", s->id, s->form == SCREE_FORM_FULL ? "full" : "quick",
                       s->reason);
 }
 
-/// Rows of a statement, one a form.
-static scree_status put_statement(const page *p, const scree_statement_group *group, const scree_statement *s)
+static bool is_open(scree_verdict verdict)
+{
+    return verdict == SCREE_DIFFERS || verdict == SCREE_UNDECIDED;
+}
+
+/// Rows of a statement by the runs in the folders, one a form. open: out, one of them is no agreement.
+static scree_status put_answers(const page *p, const scree_statement_group *group, const scree_statement *s, FILE *file,
+                                bool *open)
 {
     scree_answer answer[SCREE_FINDING_FORMS];
     bool shown[SCREE_FINDING_FORMS] = {false};
@@ -63,20 +67,49 @@ static scree_status put_statement(const page *p, const scree_statement_group *gr
         if (first < 0) first = form;
     }
     for (int form = 0; form < SCREE_FINDING_FORMS; form++)
-        if (shown[form])
-            scree_page_row_write(p->file, s, &answer[form], form_names[form], form == first, form == counted);
+        if (shown[form]) scree_page_row_write(file, s, &answer[form], form_names[form], form == first, form == counted);
     static const char *const wanted[] = {"", "quick", "full"};
     scree_answer none = {.verdict = SCREE_NOT_RUN, .interval = {NAN, NAN, NAN, 0}};
-    if (counted < 0) scree_page_row_write(p->file, s, &none, wanted[s->form], true, true);
-    put_notes(p, s, answer, shown);
+    if (counted < 0) scree_page_row_write(file, s, &none, wanted[s->form], true, true);
+    *open = false;
+    for (int form = 0; form < SCREE_FINDING_FORMS; form++) *open |= shown[form] && is_open(answer[form].verdict);
     return SCREE_OK;
 }
 
-static void put_command(const page *p, const char *name)
+/// Rows of a statement, with its notes. *kept: whether they are those of the page that stood here.
+static scree_status put_statement(const page *p, const scree_statement_group *group, const scree_statement *s,
+                                  FILE *file, bool *kept)
 {
-    bool quick = scree_findings_have(p->findings, name, SCREE_FINDING_QUICK);
-    bool full = scree_findings_have(p->findings, name, SCREE_FINDING_FULL);
-    bool run = scree_findings_have(p->findings, name, SCREE_FINDING_RUN), built_in = scree_sweep_template(name);
+    scree_page_section rows = {0};
+    scree_page_rows former;
+    char *text = NULL;
+    bool open = false;
+    FILE *own = open_memstream(&text, &rows.length);
+    if (!own) return scree_error_set_memory(p->error, 4096);
+    scree_status status = put_answers(p, group, s, own, &open);
+    if (fclose(own) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    rows.text = text;
+    *kept = !status && scree_page_section_outweighs_in(&p->former, &rows, s, &former);
+    if (!status && !*kept) (void)fwrite(rows.text, 1, rows.length, file);
+    if (*kept && !scree_page_row_copy(p->former.text, p->former.length, s, file))
+        status = scree_error_set_memory(p->error, 4096);
+    if (!status) put_notes(p, s, *kept ? is_open(former.verdict) : open);
+    free(text);
+    return status;
+}
+
+/// Whether there are runs of this form, or the rows of such that stay.
+static bool has_form(const page *p, const char *name, scree_finding_form form, bool kept)
+{
+    static const char *const begins[] = {"\nFull form: ", "\nQuick form: ", "\n`scree run "};
+    const char *at = kept ? strstr(p->former.text, begins[form]) : NULL;
+    return (at && at < p->former.text + p->former.length) || scree_findings_have(p->findings, name, form);
+}
+
+static void put_command(const page *p, const char *name, bool kept)
+{
+    const bool quick = has_form(p, name, SCREE_FINDING_QUICK, kept), full = has_form(p, name, SCREE_FINDING_FULL, kept),
+               run = has_form(p, name, SCREE_FINDING_RUN, kept), built_in = scree_sweep_template(name);
     if (run) (void)fprintf(p->file, "\n`scree run %s`\n", name);
     if (full && built_in) (void)fprintf(p->file, "\nFull form: `scree reproduce --full --only %s`\n", name);
     if (quick && built_in) (void)fprintf(p->file, "\nQuick form: `scree reproduce --only %s`\n", name);
@@ -84,26 +117,47 @@ static void put_command(const page *p, const char *name)
         (void)fprintf(p->file, "\nTo be run by `scree reproduce --only %s`.\n", name);
 }
 
-/// What the runs in the folders say of a case, as the text of its section but for the figures; to be freed.
-static scree_status write_group(page *p, const scree_statement_group *group, scree_page_section *section, char **text)
+/// Rows of all statements of a case into `rows`, notes into p->explained.
+static scree_status put_statements(const page *p, const scree_statement_group *group, FILE *rows, bool *any_kept)
 {
-    char *notes = NULL;
+    scree_status status = SCREE_OK;
+    *any_kept = false;
+    for (int64_t k = 0; k < group->statement_count && !status; k++) {
+        bool kept = false;
+        status = put_statement(p, group, &group->statements[k], rows, &kept);
+        *any_kept |= kept;
+    }
+    return status;
+}
+
+/// What the runs in the folders say of a case, and rows of `former` that rest on more, as the text of its section but
+/// for the figures; to be freed.
+static scree_status write_group(const page *p, const scree_statement_group *group, scree_page_section former,
+                                scree_page_section *section, char **text)
+{
+    char *notes = NULL, *rows = NULL;
     size_t length;
+    bool kept = false;
     page part = *p;
+    part.former = former;
     part.file = open_memstream(text, &section->length);
-    if (!part.file) return scree_error_set_memory(p->error, 4096);
     part.explained = open_memstream(&notes, &length);
-    scree_status status = part.explained ? SCREE_OK : scree_error_set_memory(p->error, 4096);
-    (void)fprintf(part.file, "\n### %s\n\n%s\n", group->name, group->meaning);
-    put_command(&part, group->name);
-    scree_runs_table_write(p->findings, group->name, part.file);
-    scree_page_row_head(part.file);
-    for (int64_t k = 0; k < group->statement_count && !status; k++)
-        status = put_statement(&part, group, &group->statements[k]);
+    FILE *statements = open_memstream(&rows, &length);
+    scree_status status = part.file && part.explained && statements ? SCREE_OK : scree_error_set_memory(p->error, 4096);
+    if (!status) status = put_statements(&part, group, statements, &kept);
     if (part.explained && fclose(part.explained) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
-    if (!status && notes[0]) (void)fprintf(part.file, "\nNotes:\n\n%s", notes);
+    if (statements && fclose(statements) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    if (!status) {
+        (void)fprintf(part.file, "\n### %s\n\n%s\n", group->name, group->meaning);
+        put_command(&part, group->name, kept);
+        scree_runs_table_write(p->findings, group->name, kept ? &part.former : NULL, part.file);
+        scree_page_row_head(part.file);
+        (void)fputs(rows, part.file);
+        if (notes[0]) (void)fprintf(part.file, "\nNotes:\n\n%s", notes);
+    }
     free(notes);
-    if (fclose(part.file) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    free(rows);
+    if (part.file && fclose(part.file) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
     section->text = *text;
     return status;
 }
@@ -114,9 +168,14 @@ static scree_status put_group(page *p, const scree_statement_group *group)
     const scree_page_section former = scree_page_section_find(options->former, p->source, group->name);
     scree_page_section section;
     char *text = NULL;
-    scree_status status = write_group(p, group, &section, &text);
+    scree_status status = write_group(p, group, (scree_page_section){0}, &section, &text);
     const bool stays = !status && scree_page_section_outweighs(&former, &section, group);
     if (stays) section = former;
+    if (!status && !stays && former.length > 0) {
+        free(text);
+        text = NULL;
+        status = write_group(p, group, former, &section, &text);
+    }
     if (!status) {
         (void)fwrite(section.text, 1, section.length, p->file);
         scree_page_section_count(&section, group, p->counts);
@@ -162,7 +221,7 @@ static const char introduction[] =
     "source does not have. Each statement counts once: by its full form where that has a result, else by its quick\n"
     "form; the verdict that counts is in bold, others stand in brackets. A case that rests on more realisations on "
     "the\n"
-    "page that stood here before than in the folders (theirs are gone) keeps its section.\n";
+    "page that stood here before than in the folders (theirs are gone) keeps its section, a statement its rows.\n";
 
 /// Text of a table: a file, or a built-in one.
 static scree_status read_table(const page *p, const char *name, scree_arena *arena, scree_statement_table *table,

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+static const char *const forms[] = {"full", "quick", "run"};
+
 /// Whether two runs belong to one row.
 static bool same_row(const scree_finding *a, const scree_finding *b)
 {
@@ -39,7 +41,6 @@ static void put_builds(FILE *file, const scree_findings *findings, const scree_f
 
 static void put_row(FILE *file, const scree_findings *findings, const scree_finding *row)
 {
-    static const char *const forms[] = {"full", "quick", "run"};
     double friction[2] = {NAN, NAN}, solid[2] = {NAN, NAN}, contacts[2] = {NAN, NAN};
     size_t state[3] = {0};
     (void)fprintf(file, "| %s%s%s | %s | ", row->name, row->label[0] ? "/" : "", row->label, forms[row->form]);
@@ -66,7 +67,40 @@ static void put_row(FILE *file, const scree_findings *findings, const scree_find
     (void)fputs("\n", file);
 }
 
-void scree_runs_table_write(const scree_findings *findings, const char *name, FILE *file)
+static void put_head(FILE *file, bool *any)
+{
+    if (!*any)
+        (void)fputs("\n| runs | form | seeds | failed, missing | build | friction of the confinement | solid "
+                    "fraction at the begin of loading | coordination there |\n|---|---|---|---|---|---|---|---|\n",
+                    file);
+    *any = true;
+}
+
+/// Whether `line` is the row of runs of this name; then the length of its cells with point and form.
+static size_t row_of_runs(const char *line, const char *name)
+{
+    const size_t length = strlen(name);
+    if (strncmp(line, "| ", 2) != 0 || strncmp(line + 2, name, length) != 0 || !strchr("/ ", line[2 + length]))
+        return 0;
+    const char *form = strstr(line + 2, " | "), *end = form ? strstr(form + 3, " | ") : NULL;
+    return end ? (size_t)(end - line) + 3 : 0;
+}
+
+/// Whether one of the runs has the row that begins so.
+static bool has_row(const scree_findings *findings, const char *begin, size_t length)
+{
+    char text[400];
+    for (size_t i = 0; i < findings->count; i++) {
+        const scree_finding *f = &findings->item[i];
+        (void)snprintf(text, sizeof text, "| %s%s%s | %s | ", f->name, f->label[0] ? "/" : "", f->label,
+                       forms[f->form]);
+        if (strlen(text) == length && strncmp(text, begin, length) == 0) return true;
+    }
+    return false;
+}
+
+void scree_runs_table_write(const scree_findings *findings, const char *name, const scree_page_section *former,
+                            FILE *file)
 {
     bool any = false;
     for (size_t i = 0; i < findings->count; i++) {
@@ -74,11 +108,16 @@ void scree_runs_table_write(const scree_findings *findings, const char *name, FI
         if (strcmp(f->name, name) != 0) continue;
         while (!same_row(first, f)) first++;
         if (first != f) continue;
-        if (!any)
-            (void)fputs("\n| runs | form | seeds | failed, missing | build | friction of the confinement | solid "
-                        "fraction at the begin of loading | coordination there |\n|---|---|---|---|---|---|---|---|\n",
-                        file);
-        any = true;
+        put_head(file, &any);
         put_row(file, findings, f);
+    }
+    for (const char *line = former ? former->text : NULL; line && line < former->text + former->length;) {
+        const char *end = strncmp(line, "| id |", 6) == 0 ? NULL : strchr(line, '\n'); // statements come behind
+        const size_t length = end ? row_of_runs(line, name) : 0;
+        if (length > 0 && !has_row(findings, line, length)) {
+            put_head(file, &any);
+            (void)fprintf(file, "%.*s\n", (int)(end - line), line);
+        }
+        line = end ? end + 1 : NULL;
     }
 }

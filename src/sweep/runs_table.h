@@ -3,10 +3,13 @@
 #define SCREE_SWEEP_RUNS_TABLE_H
 
 #include "sweep/findings.h"
+#include "sweep/page_section.h"
 
 #include <stdio.h>
 
-/// A table with a row for each point and form of the runs called `name`; nothing when there are none.
-void scree_runs_table_write(const scree_findings *findings, const char *name, FILE *file);
+/// A table with a row for each point and form of the runs called `name`, and those rows of the section `former` (NULL:
+/// of none) that tell of other points and forms; nothing when there are none.
+void scree_runs_table_write(const scree_findings *findings, const char *name, const scree_page_section *former,
+                            FILE *file);
 
 #endif

@@ -69,7 +69,17 @@ expect 0 '' "$scree" report runs --statements mine.yaml -o page.md
 cmp -s page.md whole.md || complain "the same page is not written twice: $(diff page.md whole.md)"
 sed 's/greater than 9/greater than 8/' mine.yaml >other.yaml
 expect 0 '' "$scree" report runs/quick --statements other.yaml -o page.md
-row large | grep -qF '| **undecided** | quick |' || complain "a section with another criterion stayed: $(row large)"
+# A statement with another criterion has what the folders hold, the others their rows, with the runs that these are of.
+row huge | grep -qF '| greater than 8 | 1.05 [0.4147, 1.685] | 2 of 2 | **differs** | quick |' || complain "another criterion: $(row huge)"
+same "$(row huge | wc -l)" 1 "rows of a statement with another criterion"
+same "$(grep -E '^\| (large|ours|more) ' page.md)" "$(grep -E '^\| (large|ours|more) ' whole.md)" "rows that stay"
+same "$(grep '^| mine ' page.md | sort)" "$(grep '^| mine ' whole.md | sort)" "runs of rows that stay"
+grep -qF 'Full form: `scree reproduce' page.md && complain "a sweep that is not built in has no command"
+grep -qF 'Mine (Q). Findings: **1 agree, 1 differ, 0 are undecided**' page.md || complain "headline of rows that stay: $(grep Findings page.md)"
+grep -qF -- '- more, full form only: because.' page.md || complain "no note of a row that stays"
+cp page.md mixed.md
+expect 0 '1 cases stay' "$scree" report runs/quick --statements other.yaml -o page.md
+cmp -s page.md mixed.md || complain "a page of old and new rows changes when it is written again: $(diff page.md mixed.md)"
 rm page.md
 # Without the full form the quick one counts, and full runs weigh more than any number of quick ones.
 expect 0 '' "$scree" report runs/quick --statements mine.yaml -o page.md
