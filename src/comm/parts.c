@@ -112,7 +112,7 @@ void scree_parts_keep_rows(scree_state *state, const scree_body_array *list, siz
     for (size_t row = 0; row < state->count; row++)
         if (to[row] == here) scree_parts_move_element(list, arrays, row, kept++);
     // The sums of a ghost that takes a row are clear.
-    for (size_t k = 0; k < arrays; k++)
+    for (size_t k = 0; k < arrays && kept < state->count; k++)
         memset(*(unsigned char **)list[k].pointer + kept * list[k].size, 0, (state->count - kept) * list[k].size);
     state->count = kept;
 }
@@ -239,6 +239,7 @@ static scree_status journey_make(journey *j, const int32_t *ends, size_t count, 
 static void journey_end(const journey *j, const scree_body_array *list, size_t arrays, size_t at)
 {
     const unsigned char *in = j->in;
+    if (j->arriving == 0) return; // there may be no arrays
     for (size_t k = 0; k < arrays; in += list[k++].size * j->arriving)
         memcpy(*(unsigned char **)list[k].pointer + at * list[k].size, in, list[k].size * j->arriving);
 }

@@ -95,7 +95,7 @@ static scree_status note_own(const scree_state *state, scree_parts *parts, scree
     scree_release(&parts->own);
     scree_status status = scree_allocate(&parts->own, state->count + 1, sizeof *parts->own, error);
     if (status) return status;
-    memcpy(parts->own, state->id, state->count * sizeof *parts->own);
+    if (state->count > 0) memcpy(parts->own, state->id, state->count * sizeof *parts->own);
     parts->own_count = state->count;
     return SCREE_OK;
 }
