@@ -196,7 +196,7 @@ static void memory_of_another_law_is_not_read(void **unused)
     while (s.state.contact_law[spoilt] != MIXED || s.state.contact[spoilt].history.value[0] == 0) spoilt++;
     s.model.count = s.state.count;
     s.state.contact_law[spoilt] = OWN;
-    assert_int_equal(scree_state_check(&s.state, &s.model, &error), SCREE_ERROR_IO);
+    assert_int_equal(scree_state_check(&s.state, &s.model, NULL, &error), SCREE_ERROR_IO);
     assert_non_null(strstr(error.message, "contacts/law"));
     const uint32_t first = s.state.contact[spoilt].first, second = s.state.contact[spoilt].second;
     scree_contact_scratch_destroy(&s.work);
