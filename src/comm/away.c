@@ -194,13 +194,13 @@ void scree_parts_add_back(scree_state *state, scree_work *work)
 
 void scree_parts_begin_step(scree_work *work)
 {
-    scree_balance_begin_step(&work->parts->balance);
+    if (work->parts_by_time) scree_balance_begin_step(&work->parts->balance);
 }
 
 void scree_parts_end_step(const scree_state *state, scree_work *work)
 {
     scree_parts *parts = work->parts;
-    scree_balance_end_step(&parts->balance);
+    scree_balance_end_step(&parts->balance, work->parts_by_time);
     parts->taken++;
     parts->taken_bodies += state->count;
     parts->taken_ghosts += work->ghosts.away;

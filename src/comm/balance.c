@@ -33,9 +33,9 @@ void scree_balance_begin_step(scree_balance *balance)
     balance->begun = scree_clock() - waited();
 }
 
-void scree_balance_end_step(scree_balance *balance)
+void scree_balance_end_step(scree_balance *balance, bool by_time)
 {
-    balance->worked += scree_clock() - waited() - balance->begun;
+    if (by_time) balance->worked += scree_clock() - waited() - balance->begun;
     balance->steps++;
 }
 
@@ -86,8 +86,7 @@ static bool pays_by_counts(scree_balance *balance, const costs *c)
 static bool pays_by_time(scree_balance *balance, const costs *c)
 {
     if (c->mean < SHORTEST * NANOSECONDS) return false;
-    balance->lost = (double)balance->steps * (c->largest / c->mean - 1);
-    const bool pays = balance->lost > SCREE_BALANCE_CUT_STEPS;
+    const bool pays = (double)balance->steps * (c->largest / c->mean - 1) > SCREE_BALANCE_CUT_STEPS;
     if (!pays && balance->steps > WINDOW) scree_balance_begin(balance, true);
     return pays;
 }

@@ -27,19 +27,21 @@
 
 typedef struct scree_balance {
     uint64_t steps; ///< since the last cut, or in this window
-    double lost;    ///< of these, as long as those of the mean part: by uneven parts
-    double left;    ///< least excess over the mean since a cut by costs, which it has left
-    uint64_t seen;  ///< of `steps`, when the last list was made
-    double worked;  ///< s in these steps beside calls of the transport
-    double begun;   ///< s, while a step lasts: when it began, less what calls of the transport had taken until then
+    // by counts
+    double lost;   ///< of these, as long as those of the mean part: by uneven parts
+    double left;   ///< least excess over the mean since a cut by costs, which it has left
+    uint64_t seen; ///< of `steps`, when the last list was made
+    // by time
+    double worked; ///< s in these steps beside calls of the transport
+    double begun;  ///< s, while a step lasts: when it began, less what calls of the transport had taken until then
 } scree_balance;
 
 /// Space has been cut, by costs or by bodies alone.
 void scree_balance_begin(scree_balance *balance, bool by_costs);
 
-/// Around a step.
+/// Around a step; only by time it has a clock, and has to have begun.
 void scree_balance_begin_step(scree_balance *balance);
-void scree_balance_end_step(scree_balance *balance);
+void scree_balance_end_step(scree_balance *balance, bool by_time);
 
 /// When a list is to be made, while the last one holds: whether a cut pays. *worst: grows to the cost of the part that
 /// costs most over the mean. All processes call it, and get the same.

@@ -11,7 +11,8 @@ static int32_t keeper_of(const scree_directory *directory, uint32_t id)
     return id < directory->ids ? (int32_t)(id / scree_range_rows(directory->ids)) : NOBODY;
 }
 
-static scree_status fill(scree_directory *directory, const scree_state *state, const int32_t *process,
+/// *wrong: found here, ids that two bodies have, or that were never given.
+static scree_status fill(scree_directory *directory, const scree_state *state, const int32_t *process, int64_t *wrong,
                          scree_error *error)
 {
     typedef struct entry {
@@ -27,14 +28,14 @@ static scree_status fill(scree_directory *directory, const scree_state *state, c
     for (size_t row = 0; row < state->count && !status; row++) {
         own[row] = (entry){state->id[row], process[row]};
         to[row] = keeper_of(directory, state->id[row]);
-        directory->wrong += to[row] == NOBODY;
+        *wrong += to[row] == NOBODY;
     }
     if (!status) status = scree_route_to(&route, to, state->count, &arriving, error);
     if (!status) status = scree_allocate(&in, arriving + 1, sizeof *in, error);
     if (!status) status = scree_route_pass(&route, own, in, sizeof *in, error);
     for (size_t k = 0; k < arriving && !status; k++) {
         int32_t *kept = &directory->process[in[k].id - directory->begin];
-        directory->wrong += *kept != NOBODY;
+        *wrong += *kept != NOBODY;
         *kept = in[k].process;
     }
     void *const arrays[] = {&own, &in, &to};
@@ -47,11 +48,17 @@ scree_status scree_directory_open(scree_directory *directory, const scree_state 
                                   scree_error *error)
 {
     const int here = scree_comm_rank();
+    int64_t wrong = 0;
     *directory = (scree_directory){.ids = state->next_id, .begin = scree_range_begin(state->next_id, here)};
     directory->count = scree_range_begin(state->next_id, here + 1) - directory->begin;
     scree_status status = scree_allocate(&directory->process, directory->count + 1, sizeof *directory->process, error);
     for (size_t k = 0; k < directory->count && !status; k++) directory->process[k] = NOBODY;
-    return status ? status : fill(directory, state, process, error);
+    if (!status) status = fill(directory, state, process, &wrong, error);
+    scree_comm_add(state, &wrong, 1);
+    if (status || wrong == 0) return status;
+    return scree_error_set(error, SCREE_ERROR_IO,
+                           "dataset 'id': an id is that of two bodies, or was never given (%lld of them)",
+                           (long long)wrong);
 }
 
 void scree_directory_close(scree_directory *directory)

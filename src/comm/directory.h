@@ -9,11 +9,10 @@ typedef struct scree_directory {
     size_t begin;     ///< this process keeps those from here on,
     size_t count;     ///< so many
     int32_t *process; ///< of each of them; negative: nobody has it
-    size_t wrong;     ///< found here: ids that two bodies have, or that were never given
 } scree_directory;
 
-/// process[row]: what is said of the body in a row. All processes call it. Errors: memory. Cost: 8 bytes a body are
-/// sent, and 4 an id kept.
+/// process[row]: what is said of the body in a row. All processes call it. Errors: memory; SCREE_ERROR_IO, in all
+/// processes: an id is that of two bodies, or was never given. Cost: 8 bytes a body are sent, and 4 an id kept.
 scree_status scree_directory_open(scree_directory *directory, const scree_state *state, const int32_t *process,
                                   scree_error *error) SCREE_MUST_USE;
 void scree_directory_close(scree_directory *directory);

@@ -24,12 +24,6 @@ static void note_name(void *context, uint32_t id)
     known->body[known->count++].id = id;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const scree_known_body *p = a, *q = b;
-    return (p->id > q->id) - (p->id < q->id);
-}
-
 /// The ids, each once.
 static scree_status list_names(const scree_state *state, scree_known_bodies *known, scree_error *error)
 {
@@ -38,7 +32,7 @@ static scree_status list_names(const scree_state *state, scree_known_bodies *kno
     scree_status status = scree_allocate(&known->body, names + 1, sizeof *known->body, error);
     if (status) return status;
     scree_state_each_named(state, note_name, known);
-    if (names > 1) qsort(known->body, names, sizeof *known->body, ascending);
+    if (names > 1) qsort(known->body, names, sizeof *known->body, scree_known_body_compare);
     for (size_t k = 0; k < names; k++)
         if (k == 0 || known->body[k].id != known->body[kept - 1].id) known->body[kept++] = known->body[k];
     known->count = kept;
@@ -67,18 +61,11 @@ static scree_status ask(const scree_directory *directory, scree_known_bodies *kn
 static scree_status open_directory(scree_directory *directory, const scree_state *state, scree_error *error)
 {
     int32_t *material;
-    int64_t wrong = 0;
     scree_status status = scree_allocate(&material, state->count + 1, sizeof *material, error);
     for (size_t row = 0; row < state->count && !status; row++) material[row] = scree_body_material(state, row);
     if (!status) status = scree_directory_open(directory, state, material, error);
     scree_release(&material);
-    if (status) return status;
-    wrong = (int64_t)directory->wrong;
-    scree_comm_add(state, &wrong, 1);
-    if (wrong == 0) return SCREE_OK;
-    return scree_error_set(error, SCREE_ERROR_IO,
-                           "dataset 'id': an id is that of two bodies, or was never given (%lld of them)",
-                           (long long)wrong);
+    return status;
 }
 
 scree_status scree_known_bodies_ask(const scree_state *state, scree_known_bodies *known, scree_error *error)

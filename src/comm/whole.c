@@ -244,7 +244,7 @@ static scree_status spread_pairs(scree_state *state, const scree_directory *dire
 static scree_status plan(scree_state *state, scree_work *work, scree_directory *directory, int32_t **to,
                          scree_error *error)
 {
-    int64_t total = (int64_t)state->count, wrong;
+    int64_t total = (int64_t)state->count;
     scree_comm_add(state, &total, 1);
     state->total = (size_t)total;
     state->id_count = state->next_id;
@@ -254,12 +254,7 @@ static scree_status plan(scree_state *state, scree_work *work, scree_directory *
     if (!status) status = scree_allocate(to, state->count + 1, sizeof **to, error);
     if (status) return status;
     scree_parts_choose(state, work->parts, *to);
-    status = scree_directory_open(directory, state, *to, error);
-    wrong = (int64_t)directory->wrong;
-    scree_comm_add(state, &wrong, 1);
-    if (!status && wrong > 0)
-        status = scree_error_set(error, SCREE_ERROR_IO, "an id is that of two bodies, or was never given");
-    return status;
+    return scree_directory_open(directory, state, *to, error);
 }
 
 scree_status scree_parts_spread(scree_state *state, scree_work *work, scree_error *error)

@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define FAR 1e9 /* largest radii */
@@ -125,6 +126,12 @@ static void describe(const scree_field_range *range, double most, char *text, si
                        range->limit == SCREE_LIMIT_LAST_MATERIAL ? "a whole number, " : "", least, range->least, most);
 }
 
+int scree_known_body_compare(const void *a, const void *b)
+{
+    const scree_known_body *p = a, *q = b;
+    return (p->id > q->id) - (p->id < q->id);
+}
+
 /// The material of the body with this id; negative: there is none.
 static int material_of(const scree_state *state, const scree_known_bodies *known, uint32_t id)
 {
@@ -132,16 +139,9 @@ static int material_of(const scree_state *state, const scree_known_bodies *known
         const uint32_t row = scree_state_row_of(state, id);
         return row == SCREE_NO_ROW ? -1 : scree_body_material(state, row);
     }
-    size_t from = 0, to = known->count;
-    while (from < to) {
-        const size_t middle = from + (to - from) / 2;
-        if (known->body[middle].id == id) return known->body[middle].material;
-        if (known->body[middle].id < id)
-            from = middle + 1;
-        else
-            to = middle;
-    }
-    return -1;
+    const scree_known_body wanted = {.id = id}, *found = NULL;
+    if (known->count > 0) found = bsearch(&wanted, known->body, known->count, sizeof wanted, scree_known_body_compare);
+    return found ? found->material : -1;
 }
 
 static scree_status check_field(const scree_state *state, const scree_model *model, const scree_known_bodies *known,

@@ -14,6 +14,9 @@ typedef struct scree_known_bodies {
     size_t count;
 } scree_known_bodies;
 
+/// Order of known bodies, for qsort and bsearch: by ids.
+int scree_known_body_compare(const void *a, const void *b);
+
 /// Whether every value is one that a run of `model` can have: finite, in its range, ids that exist, lengths that agree.
 /// row_of_id must be valid (ids are a permutation). `known`: of all bodies that a part names; NULL: the state is whole.
 /// Errors: SCREE_ERROR_IO with dataset, row and value.

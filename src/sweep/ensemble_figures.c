@@ -7,8 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char *const form_names[] = {"full", "quick", "run"};
-
 /// A figure of a point, if it has it.
 static scree_status put_figure(const scree_finding *f, const char *figure, bool usual, const char *folder,
                                const char *link, FILE *page, scree_error *error)
@@ -18,14 +16,14 @@ static scree_status put_figure(const scree_finding *f, const char *figure, bool 
     (void)snprintf(name, sizeof name, "%s.png", figure);
     scree_status status = scree_path_join(from, sizeof from, f->ensemble, name, error);
     if (status || access(from, R_OK) != 0) return status;
-    (void)snprintf(file, sizeof file, "%s-%s-%s%s%s.png", f->name, point, form_names[f->form], usual ? "" : "-",
-                   usual ? "" : figure);
+    (void)snprintf(file, sizeof file, "%s-%s-%s%s%s.png", f->name, point, scree_finding_form_names[f->form],
+                   usual ? "" : "-", usual ? "" : figure);
     status = scree_folders_make(folder, error);
     if (!status) status = scree_path_join(to, sizeof to, folder, file, error);
     if (!status) status = scree_file_copy(from, to, error);
     if (status) return status;
-    (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: ", f->name, point, form_names[f->form], link,
-                  file, f->name, point, form_names[f->form]);
+    (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: ", f->name, point,
+                  scree_finding_form_names[f->form], link, file, f->name, point, scree_finding_form_names[f->form]);
     if (strcmp(figure, "chains") == 0)
         (void)fprintf(page, "the first run.*\n");
     else

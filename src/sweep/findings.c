@@ -14,6 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
+const char *const scree_finding_form_names[] = {"full", "quick", "run"};
+
 enum { DEEPEST = 2 };
 
 /// A run that is there already, with the same seed of the same point.

@@ -9,6 +9,7 @@
 
 typedef enum scree_finding_form { SCREE_FINDING_FULL, SCREE_FINDING_QUICK, SCREE_FINDING_RUN } scree_finding_form;
 enum { SCREE_FINDING_FORMS = 3 };
+extern const char *const scree_finding_form_names[SCREE_FINDING_FORMS]; ///< as pages say them
 
 typedef enum scree_finding_state {
     SCREE_FINDING_DONE,

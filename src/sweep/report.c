@@ -15,8 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const form_names[] = {"full", "quick", "run"};
-
 /// A page in the making.
 typedef struct page {
     FILE *file;
@@ -67,7 +65,9 @@ static scree_status put_answers(const page *p, const scree_statement_group *grou
         if (first < 0) first = form;
     }
     for (int form = 0; form < SCREE_FINDING_FORMS; form++)
-        if (shown[form]) scree_page_row_write(file, s, &answer[form], form_names[form], form == first, form == counted);
+        if (shown[form])
+            scree_page_row_write(file, s, &answer[form], scree_finding_form_names[form], form == first,
+                                 form == counted);
     static const char *const wanted[] = {"", "quick", "full"};
     scree_answer none = {.verdict = SCREE_NOT_RUN, .interval = {NAN, NAN, NAN, 0}};
     if (counted < 0) scree_page_row_write(file, s, &none, wanted[s->form], true, true);
@@ -162,6 +162,16 @@ static scree_status write_group(const page *p, const scree_statement_group *grou
     return status;
 }
 
+static bool some_rows_stay(const scree_page_section *former, const scree_page_section *section,
+                           const scree_statement_group *group)
+{
+    scree_page_rows rows;
+    bool stay = false;
+    for (int64_t k = 0; k < group->statement_count && !stay; k++)
+        stay = scree_page_section_outweighs_in(former, section, &group->statements[k], &rows);
+    return stay;
+}
+
 static scree_status put_group(page *p, const scree_statement_group *group)
 {
     const scree_report_options *options = p->options;
@@ -171,7 +181,7 @@ static scree_status put_group(page *p, const scree_statement_group *group)
     scree_status status = write_group(p, group, (scree_page_section){0}, &section, &text);
     const bool stays = !status && scree_page_section_outweighs(&former, &section, group);
     if (stays) section = former;
-    if (!status && !stays && former.length > 0) {
+    if (!status && !stays && some_rows_stay(&former, &section, group)) {
         free(text);
         text = NULL;
         status = write_group(p, group, former, &section, &text);

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const forms[] = {"full", "quick", "run"};
-
 /// Whether two runs belong to one row.
 static bool same_row(const scree_finding *a, const scree_finding *b)
 {
@@ -39,11 +37,20 @@ static void put_builds(FILE *file, const scree_findings *findings, const scree_f
     (void)fputs(any ? " | " : "- | ", file);
 }
 
+/// The cells that say which runs a row is of.
+static void begin_row(char *text, size_t size, const scree_finding *f)
+{
+    (void)snprintf(text, size, "| %s%s%s | %s | ", f->name, f->label[0] ? "/" : "", f->label,
+                   scree_finding_form_names[f->form]);
+}
+
 static void put_row(FILE *file, const scree_findings *findings, const scree_finding *row)
 {
+    char begin[400];
     double friction[2] = {NAN, NAN}, solid[2] = {NAN, NAN}, contacts[2] = {NAN, NAN};
     size_t state[3] = {0};
-    (void)fprintf(file, "| %s%s%s | %s | ", row->name, row->label[0] ? "/" : "", row->label, forms[row->form]);
+    begin_row(begin, sizeof begin, row);
+    (void)fputs(begin, file);
     const char *separator = "";
     for (const scree_finding *f = row; f < findings->item + findings->count; f++) {
         if (!same_row(f, row)) continue;
@@ -91,9 +98,7 @@ static bool has_row(const scree_findings *findings, const char *begin, size_t le
 {
     char text[400];
     for (size_t i = 0; i < findings->count; i++) {
-        const scree_finding *f = &findings->item[i];
-        (void)snprintf(text, sizeof text, "| %s%s%s | %s | ", f->name, f->label[0] ? "/" : "", f->label,
-                       forms[f->form]);
+        begin_row(text, sizeof text, &findings->item[i]);
         if (strlen(text) == length && strncmp(text, begin, length) == 0) return true;
     }
     return false;

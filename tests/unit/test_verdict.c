@@ -326,6 +326,18 @@ static void same_samples_are_paired(void **state)
     assert_remark(&ratio, "not all ratios are positive");
 }
 
+/// Two runs each: those of `a` have the samples of `b`, and twice their values; one of `c` has another sample.
+static void assert_pairs(const run *a, const run *b, const run *c)
+{
+    write_sweep("s", "a", a, 2);
+    write_sweep("s", "b", b, 2);
+    write_sweep("s", "c", c, 2);
+    assert_int_equal(answer_to("given: 2, value: s/a.r / s/b.r, criterion: within 1 %").verdict, SCREE_AGREES);
+    scree_answer others = answer_to("given: 2, value: s/a.r / s/c.r, criterion: within 1 %");
+    assert_int_equal(others.verdict, SCREE_UNDECIDED);
+    assert_remark(&others, "not of the same samples");
+}
+
 /// Bonded bars, whose solid fraction no boundary measures: by the gaps of their packings. Pairs have the ratio 2.
 static void packings_are_paired(void **state)
 {
@@ -336,13 +348,7 @@ static void packings_are_paired(void **state)
     }
     const run a[] = {BAR(1, 0.01, 10), BAR(2, 0.02, 200)}, b[] = {BAR(1, 0.01, 5), BAR(2, 0.02, 100)},
               c[] = {BAR(1, 0.01, 5), BAR(2, nextafter(0.02, 1), 100)};
-    write_sweep("s", "a", a, 2);
-    write_sweep("s", "b", b, 2);
-    write_sweep("s", "c", c, 2);
-    assert_int_equal(answer_to("given: 2, value: s/a.r / s/b.r, criterion: within 1 %").verdict, SCREE_AGREES);
-    scree_answer others = answer_to("given: 2, value: s/a.r / s/c.r, criterion: within 1 %");
-    assert_int_equal(others.verdict, SCREE_UNDECIDED);
-    assert_remark(&others, "not of the same samples");
+    assert_pairs(a, b, c);
 }
 
 /// Piles that are changed in two ways: by what was unbalanced before. Pairs have the ratio 2; those of `c` were built
@@ -356,13 +362,7 @@ static void changes_of_one_state_are_paired(void **state)
     }
     const run a[] = {PILE(1, 1e-12, 10), PILE(2, 2e-12, 200)}, b[] = {PILE(1, 1e-12, 5), PILE(2, 2e-12, 100)},
               c[] = {PILE(1, 1e-12, 5), PILE(2, nextafter(2e-12, 1), 100)};
-    write_sweep("s", "a", a, 2);
-    write_sweep("s", "b", b, 2);
-    write_sweep("s", "c", c, 2);
-    assert_int_equal(answer_to("given: 2, value: s/a.r / s/b.r, criterion: within 1 %").verdict, SCREE_AGREES);
-    scree_answer others = answer_to("given: 2, value: s/a.r / s/c.r, criterion: within 1 %");
-    assert_int_equal(others.verdict, SCREE_UNDECIDED);
-    assert_remark(&others, "not of the same samples");
+    assert_pairs(a, b, c);
 }
 
 /// Of other solid fractions at the begin: means of the logarithms 1 and 3 and of 5 and 7 (see above), not pairs.
