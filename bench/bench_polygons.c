@@ -1,13 +1,15 @@
 /// Nanoseconds of scree_polygon_pair_overlap a pair: polygons with 6 to 24 corners (in sectors of a circle, equal area, any
 /// angle) that touch at a depth of 0.002 radii, and that are 0.01 radii apart, with the edge remembered and without.
-/// 512 pairs, one thread.
+/// So many pairs that no processor learns by heart how each of them branches, as in a run; one thread. bench_polygons_v3
+/// and _v4 have corners in lanes (shape/corner_lanes.h), as runs do where the processor has such instructions.
 #include "bench.h"
 
+#include "base/processor.h"
 #include "base/random.h"
 #include "shape/polygon_make.h"
 #include "shape/polygon_pair.h"
 
-enum { PAIRS = 512, ROUNDS = 2000 };
+enum { PAIRS = 4096, ROUNDS = 250 };
 
 typedef struct pair {
     double corner[2][SCREE_POLYGON_CORNERS][2], apart[2];
@@ -71,8 +73,17 @@ static double measure(bool forget, int *met)
     return 1e9 * best / ROUNDS / PAIRS;
 }
 
+/// The level of the processor that this file is compiled for; 0: any.
+#ifndef MEASURED_LEVEL
+#define MEASURED_LEVEL 0
+#endif
+
 int main(void)
 {
+    if (scree_processor_best() < MEASURED_LEVEL) {
+        (void)printf("this processor has no instructions of level %d\n", MEASURED_LEVEL);
+        return 0;
+    }
     static const int corners[] = {6, 7, 8, 12, 24};
     for (size_t c = 0; c < sizeof corners / sizeof *corners; c++) {
         int met[3];

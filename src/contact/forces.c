@@ -29,15 +29,26 @@ int scree_contact_instruction_set(int wanted)
     return wanted > 0 && wanted < best ? wanted : best;
 }
 
-static contact_kernel *choose_kernel(int dimension, int wanted)
+static contact_kernels choose_kernels(int dimension, int wanted)
 {
 #if defined(__x86_64__)
     static contact_kernel *const plane[] = {[2] = scree_pairs_2d_v2, [3] = scree_pairs_2d_v3, [4] = scree_pairs_2d_v4};
     static contact_kernel *const solid[] = {[2] = scree_pairs_3d_v2, [3] = scree_pairs_3d_v3, [4] = scree_pairs_3d_v4};
+    static contact_kernel *const outlines[] = {
+        [2] = scree_outlines_v2, [3] = scree_outlines_v3, [4] = scree_outlines_v4};
 #else
     static contact_kernel *const plane[] = {scree_pairs_2d_v0}, *const solid[] = {scree_pairs_3d_v0};
+    static contact_kernel *const outlines[] = {scree_outlines_v0};
 #endif
-    return (dimension == 3 ? solid : plane)[scree_contact_instruction_set(wanted)];
+    const int set = scree_contact_instruction_set(wanted);
+    return (contact_kernels){.in_lanes = (dimension == 3 ? solid : plane)[set], .outlines = outlines[set]};
+}
+
+/// That of the section which the job has entered.
+static contact_kernel *kernel_of(const contact_kernels *kernels, const contact_job *job)
+{
+    if (!geometry_is_one_by_one(job->variant)) return kernels->in_lanes;
+    return geometry_has_areas(job->variant) ? kernels->outlines : contact_pairs_reference;
 }
 
 /// What all parts of an evaluation share.
@@ -91,7 +102,7 @@ static void add_walls(contact_job *job, const scree_state *state, const scree_wo
 }
 
 /// The pairs of all sections, of each those in its range.
-static void evaluate_sections(contact_kernel *kernel, contact_job *job, const scree_pair_list *pairs,
+static void evaluate_sections(const contact_kernels *kernels, contact_job *job, const scree_pair_list *pairs,
                               const contact_range *range, uint8_t *near_touched, const size_t *near_byte)
 {
     contact_totals before;
@@ -100,10 +111,7 @@ static void evaluate_sections(contact_kernel *kernel, contact_job *job, const sc
         if (pairs->section[k].asleep || contact_range_is_empty(&range[k])) continue;
         if (!first) before = job->totals;
         contact_job_enter(job, &pairs->section[k], &range[k], near_touched ? near_touched + near_byte[k] : NULL);
-        if (geometry_is_one_by_one(job->variant))
-            contact_pairs_reference(job);
-        else
-            kernel(job);
+        kernel_of(kernels, job)(job);
         if (!first) contact_totals_add(&job->totals, &before);
         first = false;
     }
@@ -112,16 +120,17 @@ static void evaluate_sections(contact_kernel *kernel, contact_job *job, const sc
 
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
+    static const contact_kernels reference = {contact_pairs_reference, contact_pairs_reference};
     contact_range range[SCREE_PAIR_SECTIONS];
     for (int k = 0; k < work->pairs.section_count; k++) range[k] = contact_range_of(&work->pairs.section[k]);
-    evaluate_sections(contact_pairs_reference, job, &work->pairs, range, NULL, NULL);
+    evaluate_sections(&reference, job, &work->pairs, range, NULL, NULL);
     add_walls(job, state, work, 0, state->count);
     return job->totals;
 }
 
 /// What the members of the thread pool share.
 typedef struct parts_task {
-    contact_kernel *kernel;
+    const contact_kernels *kernels;
     contact_scratch *scratch;
     const contact_job *common;
     scree_state *state;
@@ -136,7 +145,7 @@ static void evaluate_share(void *argument, int index, int count)
     (void)count;
     part->job = *task->common;
     contact_part_clear(part, task->state, &part->job);
-    evaluate_sections(task->kernel, &part->job, &task->work->pairs, part->range, scratch->near_touched,
+    evaluate_sections(task->kernels, &part->job, &task->work->pairs, part->range, scratch->near_touched,
                       scratch->near_byte);
 }
 
@@ -156,10 +165,10 @@ static void finish_share(void *argument, int index, int count)
     add_walls(job, state, task->work, begin, end);
 }
 
-static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,
-                                     scree_state *state, scree_work *work)
+static contact_totals evaluate_parts(const contact_kernels *kernels, contact_scratch *scratch,
+                                     const contact_job *common, scree_state *state, scree_work *work)
 {
-    parts_task task = {kernel, scratch, common, state, work};
+    parts_task task = {kernels, scratch, common, state, work};
     int parts = scratch->part_count;
     scree_thread_pool_run(&work->pool, parts, evaluate_share, &task);
     scree_thread_pool_run(&work->pool, parts, finish_share, &task);
@@ -269,12 +278,11 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));
     work->clear_rows = 0;
     contact_clear_moments(state, scree_row_count(state, work));
-    contact_kernel *kernel = work->reference_kernel ? NULL
-                             : state->lead          ? contact_pairs_reference
-                                                    : choose_kernel(state->dimension, work->instruction_set);
-    contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
+    contact_kernels kernels = choose_kernels(state->dimension, work->instruction_set);
+    if (state->lead) kernels.in_lanes = contact_pairs_reference;
+    contact_scratch *scratch = work->reference_kernel ? NULL : contact_scratch_refresh(work, state);
     contact_totals totals =
-        scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
+        scratch ? evaluate_parts(&kernels, scratch, job, state, work) : evaluate_serially(job, state, work);
     join_totals(state, work, &totals);
     contact_resting_loads(state, &job->scale, &totals);
     return totals;

@@ -1,6 +1,6 @@
 /// One thread's share of a section of the pair list, in a force evaluation: what a kernel reads and what it gives back.
 /// Between contact/forces.c, which cuts the work, and the kernels (scree_pairs_2d_vN and scree_pairs_3d_vN for two and
-/// three dimensions: one compilation of their files for each instruction set).
+/// three dimensions, scree_outlines_vN for outlines: one compilation of their files for each instruction set).
 #ifndef SCREE_CONTACT_JOB_H
 #define SCREE_CONTACT_JOB_H
 
@@ -93,5 +93,11 @@ static inline void contact_job_enter(contact_job *job, const scree_pair_section 
 typedef void contact_kernel(contact_job *job);
 contact_kernel scree_pairs_2d_v0, scree_pairs_2d_v2, scree_pairs_2d_v3, scree_pairs_2d_v4;
 contact_kernel scree_pairs_3d_v0, scree_pairs_3d_v2, scree_pairs_3d_v3, scree_pairs_3d_v4;
+contact_kernel scree_outlines_v0, scree_outlines_v2, scree_outlines_v3, scree_outlines_v4;
+
+/// Those of an evaluation.
+typedef struct contact_kernels {
+    contact_kernel *in_lanes, *outlines;
+} contact_kernels;
 
 #endif

@@ -13,6 +13,7 @@
 #ifndef SCREE_CONTACT_PAIRS_H
 #define SCREE_CONTACT_PAIRS_H
 
+#include "base/kernel_name.h"
 #include "contact/group.h"
 
 #define PREFETCH_AHEAD 32 // pairs
@@ -145,10 +146,7 @@ SCREE_INLINE void run(contact_job *given, variant v)
     totals_reduce(&t, &given->totals);
 }
 
-#define PASTE(a, b)            a##b
-#define KERNEL_NAME(name, isa) PASTE(name, isa)
-
-#define DEFORMS(law, option)   law##_traits[option].deforms
+#define DEFORMS(law, option) law##_traits[option].deforms
 
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
 /// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger; always
@@ -187,7 +185,7 @@ enum { MOST_OPTIONS = 6 };
 /// The kernel of a dimension. One for many materials serves a single one, too.
 #define PAIRS_KERNEL(name, NAME)                                                                                       \
     SCREE_LAWS(NAME##_KERNELS)                                                                                         \
-    void KERNEL_NAME(scree_##name##_v, SCREE_ISA)(contact_job * job)                                                   \
+    void SCREE_KERNEL_NAME(scree_##name)(contact_job * job)                                                            \
     {                                                                                                                  \
         static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
         const variant *v = &job->variant;                                                                              \

@@ -2,7 +2,7 @@
 /// around it (loops, loads, sums) is written plainly, so that a comparison tests the machinery of the kernels.
 #include "contact/reference.h"
 
-#include "contact/advance.h"
+#include "contact/one_by_one.h"
 #include "state/plates.h"
 
 #define WALL_PAIRS_AHEAD 8
@@ -33,58 +33,13 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
         }
 }
 
-SCREE_INLINE void evaluate_pair(contact_job *job, variant v, size_t p)
-{
-    const int dimension = v.dimension;
-    const size_t first = job->first[p], second = job->second[p];
-    memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
-    bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
-    bool touching = law_holds(v) ||
-                    (geometry_is_coarse(v) ? geometry_touches(v, &one, &other) != 0 : pair_touches(v, &one, &other));
-    if (!touching && memory_is_clear(&rows)) return;
-    one.hint = job->hint ? &job->hint[p] : NULL;
-    kinematics m = geometry_kinematics(v, &one, &other, job->settings.step);
-    kinematics_lead(v, &m, &one, &other);
-    if (geometry_is_coarse(v) && !(touching = touching && expanded_touch(&m)) && memory_is_clear(&rows)) return;
-    const bool deforms = law_deforms(v);
-    if (deforms) {
-        const stretch both = stretch_get(dimension, one.stretch, other.stretch);
-        kinematics_expand(dimension, &m, &both, job->settings.step);
-    }
-    if (law_predicts(v)) {
-        prediction ahead = prediction_get(dimension, &job->predicted[first]);
-        prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
-        kinematics_predict(dimension, &m, &one, &ahead, &other, &ahead_second);
-    }
-    const scree_pair_constants *constants = &job->pairs[(int)one.material][(int)other.material];
-    const scree_member_row *own = law_holds(v) ? &job->own[p] : NULL;
-    contact_quanta q = contact_advance(job, v, constants, own, &m, touching, &rows);
-    contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
-    contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
-    contact_add_moments(job, deforms, first, contact_branch_of(v, &m, true), q.straining);
-    contact_add_moments(job, deforms, second, contact_branch_of(v, &m, false), q.straining);
-}
-
-SCREE_INLINE void evaluate_range(contact_job *job, variant v)
-{
-    const contact_range *range = &job->range;
-    for (size_t p = range->touching_begin; p < range->touching_end; p++) evaluate_pair(job, v, p);
-    for (size_t p = range->near_begin; p < range->near_end; p++) evaluate_pair(job, v, p);
-}
-
-/// The geometry of laws of areas.
-#define AREAS_OF(name) +(name##_traits.areas ? GEOMETRY_##name : 0)
-#define AREAS          (0 SCREE_GEOMETRIES_ONE_BY_ONE(AREAS_OF))
-/// That with gains, of all other laws.
+/// The geometry with gains.
 #define GAINS_OF(name) +(name##_traits.gains ? GEOMETRY_##name : 0)
 #define GAINS          (0 SCREE_GEOMETRIES_ONE_BY_ONE(GAINS_OF))
 
-/// Geometries of one by one have no kernels: this is their hot loop, with law and geometry as constants.
+/// The hot loop of that geometry, with law and geometry as constants; outlines have one of their own
+/// (outlines_batch.c).
 #define PAIRS_OF_LAW(law_)                                                                                             \
-    if (law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == AREAS && v.ledger) {                     \
-        evaluate_range(job, (variant){2, SCREE_SLOT_##law_, 0, true, true, v.moments, AREAS});                         \
-        return;                                                                                                        \
-    }                                                                                                                  \
     if (!law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == GAINS && v.ledger) {                    \
         evaluate_range(job, (variant){2, SCREE_SLOT_##law_, v.option, true, true, v.moments, GAINS});                  \
         return;                                                                                                        \

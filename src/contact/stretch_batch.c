@@ -3,10 +3,8 @@
 /// instructions a disc (v3).
 #include "contact/stretch_batch.h"
 
+#include "base/kernel_name.h"
 #include "contact/rows.h"
-
-#define PASTE(a, b)            a##b
-#define KERNEL_NAME(name, isa) PASTE(name, isa)
 
 /// Tensors have xx, yy, xy; xx, yy, zz, yz, xz, xy.
 SCREE_INLINE int tensor_size(int d)
@@ -235,12 +233,12 @@ SCREE_INLINE stretch_extremes run(int d, bool settles, const stretch_job *given)
                               .term = largest_lane(all.term)};
 }
 
-stretch_extremes KERNEL_NAME(stretch_bodies_v, SCREE_ISA)(const stretch_job *job)
+stretch_extremes SCREE_KERNEL_NAME(stretch_bodies)(const stretch_job *job)
 {
     return job->state->dimension == 3 ? run(3, false, job) : run(2, false, job);
 }
 
-stretch_extremes KERNEL_NAME(stretch_settle_v, SCREE_ISA)(const stretch_job *job)
+stretch_extremes SCREE_KERNEL_NAME(stretch_settle)(const stretch_job *job)
 {
     return job->state->dimension == 3 ? run(3, true, job) : run(2, true, job);
 }

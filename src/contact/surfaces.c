@@ -71,36 +71,50 @@ static kinematics lie_beside(const scree_surface *surface, variant v, const bodi
     return geometry_against(v, seen, &outline, apart, step);
 }
 
-/// Whether the body reaches its closest point, or a neck of this reach [m] may, and if only kinematics tell, the wall.
-static bool touches_primitive(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
-                              const scree_closest_point *closest, double reach)
+/// Whether the body reaches its closest point, or a neck of this reach [m] may.
+static bool is_near(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
+                    const scree_closest_point *closest, double reach)
 {
-    const scree_surface *surface = contact_surface_of(wall_set, primitive);
     const double radius = wall_reach(v.dimension, body->radius, closest->normal, body->stretch) + reach;
-    if (has_outline(v, surface) ? closest->distance >= radius
-                                : !scree_closest_point_touches(wall_set, primitive, closest, radius))
-        return false;
+    return has_outline(v, contact_surface_of(wall_set, primitive))
+               ? !(closest->distance >= radius)
+               : scree_closest_point_touches(wall_set, primitive, closest, radius);
+}
+
+/// Whether kinematics tell that it touches, where they alone do.
+static bool meets(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
+                  const scree_closest_point *closest)
+{
     if (!geometry_is_coarse(v)) return true;
-    const kinematics m = lie_beside(surface, v, body, closest, 0);
+    const kinematics m = lie_beside(contact_surface_of(wall_set, primitive), v, body, closest, 0);
     return expanded_touch(&m) != 0;
 }
 
-void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const bodies *body,
-                                 const scree_wall_pair_list *pairs, size_t begin, size_t end,
-                                 primitive_touches *touches)
+/// Those of the pairs [begin, end) of one body that are near, or that touch.
+static void gather(const scree_wall_set *wall_set, int dimension, const bodies *body, const scree_wall_pair_list *pairs,
+                   size_t begin, size_t end, bool near, primitive_touches *touches)
 {
     const variant v = {.dimension = dimension, .geometry = pairs->geometry};
     scree_vector position;
     place_of(dimension, body, position);
     touches->count = 0;
     for (size_t p = begin; p < end; p++) {
-        primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
-        scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
+        const size_t primitive = pairs->wall[p];
+        primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, primitive)};
+        scree_primitive_closest_point(wall_set, primitive, position, &touch.closest);
         const memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
         const double reach = pairs->reach > 0 && !memory_is_clear(&rows) ? pairs->reach : 0;
-        if (touches_primitive(wall_set, pairs->wall[p], v, body, &touch.closest, reach)) insert(touches, &touch);
+        if (!is_near(wall_set, primitive, v, body, &touch.closest, reach)) continue;
+        if (near || meets(wall_set, primitive, v, body, &touch.closest)) insert(touches, &touch);
     }
     merge(wall_set, touches);
+}
+
+void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const bodies *body,
+                                 const scree_wall_pair_list *pairs, size_t begin, size_t end,
+                                 primitive_touches *touches)
+{
+    gather(wall_set, dimension, body, pairs, begin, end, false, touches);
 }
 
 void contact_primitives_mark(const scree_state *state, const scree_work *work, uint8_t *touching)
@@ -215,6 +229,7 @@ typedef struct group {
     const scree_wall_set *wall_set;
     const scree_wall_pair_list *pairs;
     size_t begin, end;
+    bool alone; ///< one pair, so that no other is the same contact: whether it touches is left to its kinematics
     scree_vector position;
     primitive_touches touches;
 } group;
@@ -321,6 +336,8 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         if (v.dimension == 3 && law_traits(v)->displacement) turn_displacements(closest->normal, &rows);
         kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v, &one, closest,
                                              scree_case_walls(state)->moving != 0, job->settings.step);
+        const bool touching = touch && !(g->alone && geometry_is_coarse(v) && !expanded_touch(&m));
+        if (!touching && memory_is_clear(&rows)) continue;
         if (law_deforms(v)) {
             const stretch own = stretch_get(v.dimension, contact_stretch_at(job, row), NULL);
             kinematics_expand(v.dimension, &m, &own, job->settings.step);
@@ -330,7 +347,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
         scree_pair_constants constants = contact_surface_constants(job->model, surface, (int)one.material);
-        contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touch != NULL, &rows);
+        contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
         if (v.moments) contact_add_moments(job, law_deforms(v), row, contact_branch_of(v, &m, true), q.straining);
         add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state);
@@ -387,7 +404,8 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         size_t row = g.pairs->body[g.begin];
         if (row < begin || row >= end || rests(state, &g, row)) continue;
         const bodies one = contact_body_at(job, row);
-        contact_primitives_touching(g.wall_set, v.dimension, &one, g.pairs, g.begin, g.end, &g.touches);
+        g.alone = g.end - g.begin == 1;
+        gather(g.wall_set, v.dimension, &one, g.pairs, g.begin, g.end, g.alone, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
         place_of(v.dimension, &one, g.position);
         if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change

@@ -3,6 +3,8 @@
 /// dimension is a constant of each of its two forms.
 /// Cost: about 10 slots a body in a dense packing of like discs, 65 of like spheres; 25 and 35 flops a slot.
 #include "search/pair_search.h"
+
+#include "base/kernel_name.h"
 #include "state/plates.h"
 
 #include <string.h>
@@ -10,9 +12,6 @@
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
-
-#define JOIN_(name, isa) name##_v##isa
-#define JOIN(name, isa)  JOIN_(name, isa)
 
 /// Doubles in a vector register, and slots that are looked at together.
 #if SCREE_ISA >= 4
@@ -212,8 +211,8 @@ CORE scree_status search_rows(const scree_cell_grid *grid, const scree_state *st
     return SCREE_OK;
 }
 
-scree_status JOIN(scree_pair_search, SCREE_ISA)(const scree_cell_grid *grid, const scree_state *state, size_t begin,
-                                                size_t end, scree_pair_chunk *chunk, scree_error *error)
+scree_status SCREE_KERNEL_NAME(scree_pair_search)(const scree_cell_grid *grid, const scree_state *state, size_t begin,
+                                                  size_t end, scree_pair_chunk *chunk, scree_error *error)
 {
     return state->dimension == 3 ? search_rows(grid, state, begin, end, chunk, error, 3)
                                  : search_rows(grid, state, begin, end, chunk, error, 2);

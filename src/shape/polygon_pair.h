@@ -13,39 +13,16 @@
 /// Method: bounding circles; the edge that separated the pair when it was last looked at (`hint`, which can only
 /// reject, and only for certain); projections on the line of the centres, which leave the few edges of either that can
 /// cross; of these, corners against edges. Cost: linear in the corners, plus (edges that are left)^2, which for grains
-/// that touch are 2 to 4 of each, whatever the number of corners.
+/// that touch are 2 to 4 of each, whatever the number of corners. Up to eight corners of a body are looked at together
+/// where the processor can (polygon_crossings_lanes.h): the same decisions.
 ///
 /// Limits: shape/side.h, with R the bounding radius and a distance in place of coordinates.
 #ifndef SCREE_SHAPE_POLYGON_PAIR_H
 #define SCREE_SHAPE_POLYGON_PAIR_H
 
 #include "shape/overlap.h"
-#include "shape/polygon.h"
-#include "shape/side.h"
-
-#include <stdint.h>
-
-/// Two polygons in the coordinates of the first.
-typedef struct scree_polygon_pair {
-    int count[2];
-    const double (*corner[2])[2];
-    double bound[2];
-} scree_polygon_pair;
-
-static inline int scree_next_corner(int count, int k)
-{
-    return k + 1 < count ? k + 1 : 0;
-}
-
-/// Whether edge `edge` of body `body` has all corners of the other one strictly on its outer side, for certain.
-SCREE_INLINE bool scree_edge_separates(const scree_polygon_pair *pair, int body, int edge)
-{
-    const double *a = pair->corner[body][edge];
-    const double *b = pair->corner[body][scree_next_corner(pair->count[body], edge)];
-    int outside = 1;
-    for (int k = 0; k < pair->count[1 - body]; k++) outside &= scree_is_right(a, b, pair->corner[1 - body][k]);
-    return outside;
-}
+#include "shape/polygon_crossings.h"
+#include "shape/polygon_crossings_lanes.h"
 
 /// Polygons without crossings: whether one lies inside the other (then area, flags and arm[0] are set). If not, a
 /// separating edge, the one with the widest gap: edge + 1 of the first, -(edge + 1) of the second, 0 if none is for
@@ -57,79 +34,6 @@ int scree_polygon_compare(const scree_polygon *first, const scree_polygon *secon
 
 /// The overlap of a polygon with itself: one inside the other.
 bool scree_polygon_same(const scree_polygon *polygon, scree_overlap *overlap);
-
-/// Side of corner c of the other body to the edge a b, decided. `second`: the edge belongs to the second body.
-SCREE_INLINE bool scree_is_left(const double a[2], const double b[2], const double c[2], bool second)
-{
-    double side = scree_side(a, b, c);
-    if (side != 0) return side > 0;
-    bool sinks = b[1] < a[1] || (b[1] == a[1] && b[0] > a[0]);
-    return sinks == second;
-}
-
-/// Corners as bits that the projections on the line of the centres leave; false: they separate the bodies.
-SCREE_INLINE bool scree_polygon_select(const scree_polygon_pair *pair, const double apart[2], uint32_t near[2])
-{
-    double projection[2][SCREE_POLYGON_CORNERS], reach = 0, least = 0;
-    for (int b = 0; b < 2; b++)
-        for (int k = 0; k < pair->count[b]; k++) {
-            double p = pair->corner[b][k][0] * apart[0] + pair->corner[b][k][1] * apart[1];
-            projection[b][k] = p;
-            if (b == 0 && (k == 0 || p > reach)) reach = p;
-            if (b == 1 && (k == 0 || p < least)) least = p;
-        }
-    double extent = fabs(apart[0]) + fabs(apart[1]);
-    double margin = 0x1p-49 * extent * (pair->bound[0] + pair->bound[1] + extent);
-    if (reach < least - margin) return false;
-    near[0] = near[1] = 0;
-    for (int k = 0; k < pair->count[0]; k++) near[0] |= (uint32_t) !(projection[0][k] < least - margin) << k;
-    for (int k = 0; k < pair->count[1]; k++) near[1] |= (uint32_t) !(projection[1][k] > reach + margin) << k;
-    return true;
-}
-
-/// The bit of the next corner, at the place of each corner.
-SCREE_INLINE uint32_t scree_bits_of_next(uint32_t bits, int count)
-{
-    return bits >> 1 | (bits & 1) << (count - 1);
-}
-
-/// Crossings by the edge of the first body: the edge of the second, where the first outline goes in and where it comes
-/// out.
-typedef struct scree_crossings {
-    uint32_t entering, leaving; ///< edges of the first body, as bits
-    uint8_t in[SCREE_POLYGON_CORNERS], out[SCREE_POLYGON_CORNERS];
-} scree_crossings;
-
-/// Finds the edges that cross. An edge of a convex body crosses another such body twice at most, first in, then out.
-SCREE_INLINE void scree_polygon_cross(const scree_polygon_pair *pair, const uint32_t near[2],
-                                      scree_crossings *crossings)
-{
-    const double(*p)[2] = pair->corner[0], (*q)[2] = pair->corner[1];
-    int n = pair->count[0], m = pair->count[1];
-    uint32_t p_edges = near[0] | scree_bits_of_next(near[0], n), q_edges = near[1] | scree_bits_of_next(near[1], m);
-    // Both ends of each edge that is left.
-    uint32_t p_ends = p_edges | p_edges << 1 | p_edges >> (n - 1);
-    if (n < 32) p_ends &= ((uint32_t)1 << n) - 1;
-    crossings->entering = crossings->leaving = 0;
-    for (uint32_t js = q_edges; js; js &= js - 1) {
-        int j = __builtin_ctz(js);
-        const double *a = q[j], *b = q[scree_next_corner(m, j)];
-        uint32_t left = 0;
-        for (uint32_t is = p_ends; is; is &= is - 1) {
-            int i = __builtin_ctz(is);
-            left |= (uint32_t)scree_is_left(a, b, p[i], true) << i;
-        }
-        // Edges whose ends lie on different sides of the line of edge j cross it if its ends do so, too.
-        for (uint32_t is = (left ^ scree_bits_of_next(left, n)) & p_edges; is; is &= is - 1) {
-            int i = __builtin_ctz(is);
-            const double *s = p[i], *e = p[scree_next_corner(n, i)];
-            if (scree_is_left(s, e, a, false) == scree_is_left(s, e, b, false)) continue;
-            bool leaves = left >> i & 1;
-            (leaves ? crossings->out : crossings->in)[i] = (uint8_t)j;
-            *(leaves ? &crossings->leaving : &crossings->entering) |= (uint32_t)1 << i;
-        }
-    }
-}
 
 /// Where edge i of the first body crosses edge j of the second.
 SCREE_INLINE void scree_polygon_crossing(const scree_polygon_pair *pair, int i, int j, double place[2])
@@ -218,17 +122,15 @@ SCREE_INLINE bool scree_polygon_pair_overlap(const scree_polygon *first, const s
     const scree_polygon *body[2] = {later ? second : first, later ? first : second};
     const double way[2] = {later ? -apart[0] : apart[0], later ? -apart[1] : apart[1]};
     double shifted[SCREE_POLYGON_CORNERS][2];
-    for (int k = 0; k < body[1]->count; k++)
-        for (int i = 0; i < 2; i++) shifted[k][i] = body[1]->corner[k][i] + way[i];
-    scree_polygon_pair pair = {{body[0]->count, body[1]->count},
-                               {body[0]->corner, (const double(*)[2])shifted},
-                               {body[0]->bound, body[1]->bound}};
+    const scree_polygon_pair pair = {{body[0]->count, body[1]->count},
+                                     {body[0]->corner, (const double(*)[2])shifted},
+                                     {body[0]->bound, body[1]->bound}};
     int edge = later ? -*hint : *hint;
-    if (edge != 0 && scree_edge_separates(&pair, edge < 0, (edge < 0 ? -edge : edge) - 1)) return false;
-    uint32_t near[2];
-    if (!scree_polygon_select(&pair, way, near)) return false;
     scree_crossings crossings;
-    scree_polygon_cross(&pair, near, &crossings);
+    const bool near = scree_lanes_few(&pair)
+                          ? scree_pair_look(true, &pair, body[1]->corner, way, edge, shifted, &crossings)
+                          : scree_pair_look(false, &pair, body[1]->corner, way, edge, shifted, &crossings);
+    if (!near) return false;
     overlap->flags = 0;
     if (__builtin_popcount(crossings.entering) != __builtin_popcount(crossings.leaving)) crossings.entering = 0;
     if (crossings.entering == 0) {
