@@ -93,15 +93,28 @@ static size_t row_of_runs(const char *line, const char *name)
     return end ? (size_t)(end - line) + 3 : 0;
 }
 
-/// Whether one of the runs has the row that begins so.
-static bool has_row(const scree_findings *findings, const char *begin, size_t length)
+/// Seeds in the cell behind these: "1, 2, 3", or "-".
+static size_t seeds_of_line(const char *cell)
+{
+    size_t count = *cell != '-';
+    for (; *cell != '|' && *cell != '\n' && *cell; cell++) count += *cell == ',';
+    return count;
+}
+
+/// Whether a row whose first `length` characters say which runs it is of has more seeds than these have done, or has
+/// runs of which nothing is known here: rows that stay rest on them.
+static bool tells_more(const scree_findings *findings, const char *line, size_t length)
 {
     char text[400];
+    size_t done = 0;
+    bool known = false;
     for (size_t i = 0; i < findings->count; i++) {
         begin_row(text, sizeof text, &findings->item[i]);
-        if (strlen(text) == length && strncmp(text, begin, length) == 0) return true;
+        if (strlen(text) != length || strncmp(text, line, length) != 0) continue;
+        known = true;
+        done += findings->item[i].state == SCREE_FINDING_DONE;
     }
-    return false;
+    return !known || seeds_of_line(line + length) > done;
 }
 
 void scree_runs_table_write(const scree_findings *findings, const char *name, const scree_page_section *former,
@@ -119,7 +132,7 @@ void scree_runs_table_write(const scree_findings *findings, const char *name, co
     for (const char *line = former ? former->text : NULL; line && line < former->text + former->length;) {
         const char *end = strncmp(line, "| id |", 6) == 0 ? NULL : strchr(line, '\n'); // statements come behind
         const size_t length = end ? row_of_runs(line, name) : 0;
-        if (length > 0 && !has_row(findings, line, length)) {
+        if (length > 0 && tells_more(findings, line, length)) {
             put_head(file, &any);
             (void)fprintf(file, "%.*s\n", (int)(end - line), line);
         }

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 /// A table with a row for each point and form of the runs called `name`, and those rows of the section `former` (NULL:
-/// of none) that tell of other points and forms; nothing when there are none.
+/// of none) that tell of other points and forms, or of more seeds; nothing when there are none.
 void scree_runs_table_write(const scree_findings *findings, const char *name, const scree_page_section *former,
                             FILE *file);
 

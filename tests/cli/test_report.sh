@@ -80,6 +80,16 @@ grep -qF -- '- more, full form only: because.' page.md || complain "no note of a
 cp page.md mixed.md
 expect 0 '1 cases stay' "$scree" report runs/quick --statements other.yaml -o page.md
 cmp -s page.md mixed.md || complain "a page of old and new rows changes when it is written again: $(diff page.md mixed.md)"
+# Of the same form fewer runs than on the page: both are told, those of the rows that stay and those of the new one.
+sweep runs/few mine true '' <<'END'
+2 done 0.82 aaa 1.1
+END
+rm page.md
+expect 0 '' "$scree" report runs/quick --statements mine.yaml -o page.md
+expect 0 '' "$scree" report runs/few --statements other.yaml -o page.md
+row huge | grep -qF '| 1.1 | 1 of 1 |' || complain "a new statement: $(row huge)"
+row large | grep -qF '| 2 of 2 |' || complain "a row that stays: $(row large)"
+same "$(grep '^| mine |' page.md | cut -d'|' -f4 | tr -d '\n')" ' 2  1, 2 ' "runs of fewer and of more seeds"
 rm page.md
 # Without the full form the quick one counts, and full runs weigh more than any number of quick ones.
 expect 0 '' "$scree" report runs/quick --statements mine.yaml -o page.md
