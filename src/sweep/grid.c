@@ -312,8 +312,8 @@ bool scree_sweep_expand(scree_reader *reader, scree_sweep *sweep)
     int64_t realisations = sweep->config.realisations;
     if (sweep->quick && sweep->config.quick_realisations > 0) realisations = sweep->config.quick_realisations;
     if (sweep->realisations == 0) sweep->realisations = (size_t)realisations;
-    sweep->fixed_count =
-        assign_all(reader, &sweep->fixed, sweep->config.set, sweep->quick ? sweep->config.quick_set : NULL);
+    const scree_node *of_form = sweep->quick ? sweep->config.quick_set : sweep->config.full_set;
+    sweep->fixed_count = assign_all(reader, &sweep->fixed, sweep->config.set, of_form);
     list_measures(reader, sweep);
     expand_dimensions(reader, sweep);
     sweep->point_count = 1;

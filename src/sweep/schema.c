@@ -138,6 +138,7 @@ static const scree_key root_keys[] = {
                     "them runs it, the others go on from there."),
     PATHS(config, set, .meaning = "Key path and value of everything that all members change."),
     PATHS(config, quick_set, .meaning = "The same with `quick`, after `set`."),
+    PATHS(config, full_set, .meaning = "The same without `quick`, after `set`."),
     LIST(config, vary, vary_table, vary_count, .meaning = "The grid: every combination of these."),
     VALUES(config, measures, .standard = "[]", .meaning = "Names in summary.json that are averaged and compared."),
     LIST(config, curves, curve_table, curve_count, .meaning = "Curves that are averaged and drawn."),

@@ -68,7 +68,7 @@ typedef struct scree_sweep_config {
     int64_t seed;
     bool quick;
     double confidence;
-    const scree_node *set, *quick_set;
+    const scree_node *set, *quick_set, *full_set;
     scree_sweep_vary *vary;
     int64_t vary_count;
     const scree_node *measures;
@@ -122,7 +122,7 @@ struct scree_sweep {
     size_t case_length;
     bool quick;
     size_t realisations;
-    scree_sweep_assignment *fixed; ///< for all members: `set`, then `quick_set` in the quick form
+    scree_sweep_assignment *fixed; ///< for all members: `set`, then `quick_set` or `full_set`
     size_t fixed_count;
     scree_sweep_assignment *last; ///< --set of the command line
     size_t last_count;

@@ -102,6 +102,11 @@ done
 awk -F, 'NR > 1 && ($5 / $11 - 1)^2 > 1e-6 { exit 1 }' r/table.csv || complain "restitution is not that of the closed form: $(cat r/table.csv)"
 sed 's/friction, values/friction, quick_values: [0.1, 0.3], names: [a, b], values/' tiny.yaml >quick.yaml
 expect 0 '^001-b-seed=1: .*friction=0.3' "$scree" sweep quick.yaml --dry-run
+sed '/^quick: yes/d; s/^measures/quick_set: {particles.count: 50}\nfull_set: {particles.count: 70}\nmeasures/' tiny.yaml >forms.yaml
+expect 0 '^000-.*--set particles.count=70' "$scree" sweep forms.yaml --dry-run
+expect 0 '^000-.*--quick .*--set particles.count=50' "$scree" sweep forms.yaml --dry-run --quick
+"$scree" sweep forms.yaml --dry-run --quick | grep -q 'count=70' && complain "full_set in the quick form"
+"$scree" sweep forms.yaml --dry-run | grep -q 'count=50' && complain "quick_set in the full form"
 sed 's/, names: .a, b.//' quick.yaml >wrong.yaml
 expect 2 "'quick_values' need" "$scree" sweep wrong.yaml --dry-run
 sed 's/^curves.*/relations: [{x: steps, y: peak_stress}]/' tiny.yaml >wrong.yaml
