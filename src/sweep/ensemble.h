@@ -40,6 +40,10 @@ void scree_ensemble_visit(const char *folder, void (*take)(void *user, const cha
 /// Whether a name of an expression means a result of an ensemble.
 bool scree_reference_is_ensemble(const scree_reference *reference);
 
+/// Samples of which fewer have no interval of 95 % by resampling: it lies within the range of their values, which holds
+/// their median in 1 - 2^(1 - n) of all cases.
+enum { SCREE_ENSEMBLE_FEWEST = 6 };
+
 /// Most names that an expression may have.
 enum { SCREE_ENSEMBLE_NAMES = 16 };
 

@@ -127,10 +127,14 @@ for point in one two; do
     sweep ens/$point pair false $point <<'END'
 1 done 0.81 aaa 2.0
 2 done 0.82 aaa 2.0
+3 done 0.83 aaa 2.0
+4 done 0.84 aaa 2.0
+5 done 0.85 aaa 2.0
+6 done 0.86 aaa 2.0
 END
 done
-average ens/one one 2 dip 0.5 0.46 0.53
-average ens/two two 2 dip 0.2 0.16 0.24
+average ens/one one 6 dip 0.5 0.46 0.53
+average ens/two two 6 dip 0.2 0.16 0.24
 cat >ens.yaml <<'END'
 source: "Mine (Q)"
 cases:
@@ -146,17 +150,22 @@ cases:
       - {id: mixed, statement: s, source: Q, given: 1, value: pair/one.ensemble_dip - pair/two.r, criterion: less than 5, kind: finding}
 END
 expect 0 '' "$scree" report ens -s ens.yaml -o page.md
-row single | grep -qF '| 0.5 [0.46, 0.53] | 2 of 2 | **agrees** |' || complain "an ensemble: $(row single)"
+row single | grep -qF '| 0.5 [0.46, 0.53] | 6 of 6 | **agrees** |' || complain "an ensemble: $(row single)"
 # Ends: 0.3 - (0.04^2 + 0.04^2)^(1/2), 0.3 + (0.03^2 + 0.04^2)^(1/2).
-row apart | grep -qF '| 0.3 [0.2434, 0.35] | 2 of 2 | **undecided** |' || complain "two ensembles: $(row apart)"
-row twice | grep -qF '| 1 [0.92, 1.06] | 2 of 2 | **agrees** |' || complain "one ensemble twice: $(row twice)"
-row ratio | grep -qF '| 10 [8.333, 12.5] | 2 of 2 | **differs** |' || complain "a quotient: $(row ratio)"
+row apart | grep -qF '| 0.3 [0.2434, 0.35] | 6 of 6 | **undecided** |' || complain "two ensembles: $(row apart)"
+row twice | grep -qF '| 1 [0.92, 1.06] | 6 of 6 | **agrees** |' || complain "one ensemble twice: $(row twice)"
+row ratio | grep -qF '| 10 [8.333, 12.5] | 6 of 6 | **differs** |' || complain "a quotient: $(row ratio)"
 row level | grep -qF '| **undecided** |' || complain "a number without interval: $(row level)"
-row fixed | grep -qF '| 0.03 [0.03, 0.03] | 2 of 2 | **agrees** |' || complain "deterministic: $(row fixed)"
+row fixed | grep -qF '| 0.03 [0.03, 0.03] | 6 of 6 | **agrees** |' || complain "deterministic: $(row fixed)"
 row mixed | grep -qF 'make no value with those of single runs' || complain "mixed: $(row mixed)"
-average ens/two two 3 dip 0.2 0.16 0.24
+average ens/two two 7 dip 0.2 0.16 0.24
 expect 0 '' "$scree" report ens -s ens.yaml -o page.md
-row ratio | grep -qF 'averages over 3 of the 2 runs that are done' || complain "old averages: $(row ratio)"
+row ratio | grep -qF 'averages over 7 of the 6 runs that are done' || complain "old averages: $(row ratio)"
+average ens/one one 5 dip 0.5 0.46 0.53
+rm page.md
+expect 0 '' "$scree" report ens -s ens.yaml -o page.md
+row single | grep -qF '| **undecided** | full | averages over 5 of the 6 runs that are done: call `scree sweep --collect`; averages over fewer than 6 samples have no interval of 95 % |' || complain "few samples: $(row single)"
+row fixed | grep -qF '| **agrees** |' || complain "few samples, deterministic: $(row fixed)"
 sed -i 's/two.ensemble_dip,/two.ensemble_dpi,/' ens.yaml
 expect 2 "there is no result 'ensemble_dpi'; did you mean 'ensemble_dip'" "$scree" report ens -s ens.yaml -o page.md
 finish ""
