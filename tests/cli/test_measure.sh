@@ -121,7 +121,7 @@ cases:
       - {id: plate, statement: s, source: Q, given: 1, value: averaged.ensemble_outside_force_ratio, criterion: within 1 %, kind: check}
 END
 expect 0 '' "$scree" report averaged -s statements.yaml -o page.md
-grep -qE '^\| plate .*\| 2 of 2 \| \*\*agrees\*\*' page.md || complain "report of an ensemble: $(grep '^| plate' page.md)"
+grep -qE '^\| plate .*\| 1 \[1, 1\] \| 2 of 2 \| \*\*undecided\*\* .*fewer than 6 samples' page.md || complain "report of an ensemble: $(grep '^| plate' page.md)"
 grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/averaged-all-full.png ] || complain "no figure in the report"
 
 # Theories are fitted to three piles or more: BCC is the smooth wedge, and OSL the wedge with a free core.
