@@ -1,8 +1,8 @@
 /// Eight corners of a polygon at once, in lanes (GNU vector extensions), in place of one after the other. Each
 /// operation is one correctly rounded IEEE operation (the build forbids contraction), so the bits are the same.
 ///
-/// SCREE_CORNER_LANES is 8 where there are instructions for it: in files that are compiled for AVX2 or AVX-512
-/// (*_batch.c, CMakeLists.txt). Elsewhere it is 0, and there are none of these functions.
+/// SCREE_CORNER_LANES is what a vector holds in files that are compiled for AVX-512 (8) or AVX2 (4: two vectors;
+/// *_batch.c, CMakeLists.txt). Elsewhere it is 0, and there are none of these functions.
 #ifndef SCREE_SHAPE_CORNER_LANES_H
 #define SCREE_SHAPE_CORNER_LANES_H
 
@@ -26,22 +26,16 @@ enum { SCREE_CORNERS_IN_LANES = 8 };
 
 #include <immintrin.h>
 
-enum { SCREE_CORNER_BLOCKS = SCREE_CORNERS_IN_LANES / SCREE_CORNER_LANES };
+enum { SCREE_CORNER_VECTORS = SCREE_CORNERS_IN_LANES / SCREE_CORNER_LANES };
 
 typedef double corner_lanes __attribute__((vector_size(8 * SCREE_CORNER_LANES)));
 
 /// Coordinates of eight corners, in one or two vectors; lanes of corners that are not there hold anything.
 typedef struct polygon_lanes {
-    corner_lanes x[SCREE_CORNER_BLOCKS], y[SCREE_CORNER_BLOCKS];
+    corner_lanes x[SCREE_CORNER_VECTORS], y[SCREE_CORNER_VECTORS];
 } polygon_lanes;
 
-#define CORNER_BLOCK_LOOP _Pragma("GCC unroll 2") for (int block = 0; block < SCREE_CORNER_BLOCKS; block++)
-
-/// A bit for each corner that is there.
-SCREE_INLINE uint32_t corner_lanes_there(int count)
-{
-    return ((uint32_t)1 << count) - 1;
-}
+#define CORNER_VECTOR_LOOP _Pragma("GCC unroll 2") for (int part = 0; part < SCREE_CORNER_VECTORS; part++)
 
 /// The corners as numbers, of which masks leave out those behind the last: the compiler is not to count them.
 SCREE_INLINE const double *corner_lanes_from(const double (*corner)[2])
@@ -65,7 +59,7 @@ SCREE_INLINE corner_lanes corner_lanes_magnitude(corner_lanes a)
 }
 
 /// The largest of the lanes whose bit is set; -infinity if none is.
-SCREE_INLINE double corner_lanes_largest(uint32_t bits, const corner_lanes a[SCREE_CORNER_BLOCKS])
+SCREE_INLINE double corner_lanes_largest(uint32_t bits, const corner_lanes a[SCREE_CORNER_VECTORS])
 {
     return _mm512_mask_reduce_max_pd((__mmask8)bits, (__m512d)a[0]);
 }
@@ -108,7 +102,7 @@ SCREE_INLINE __m256i corner_lanes_mask(uint32_t bits)
     return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)bits), place), place);
 }
 
-SCREE_INLINE double corner_lanes_largest(uint32_t bits, const corner_lanes a[SCREE_CORNER_BLOCKS])
+SCREE_INLINE double corner_lanes_largest(uint32_t bits, const corner_lanes a[SCREE_CORNER_VECTORS])
 {
     const __m256d none = _mm256_set1_pd(-INFINITY);
     const __m256d four =
@@ -124,18 +118,18 @@ SCREE_INLINE polygon_lanes corner_lanes_load(int count, const double (*corner)[2
     const __m256d by = _mm256_broadcast_pd((const __m128d *)(const void *)way);
     const uint32_t there = ((uint32_t)1 << 2 * count) - 1;
     polygon_lanes read;
-    CORNER_BLOCK_LOOP
+    CORNER_VECTOR_LOOP
     {
-        const double *from = corner_lanes_from(corner) + 8 * block;
-        const uint32_t bits = there >> 8 * block;
+        const double *from = corner_lanes_from(corner) + 8 * part;
+        const uint32_t bits = there >> 8 * part;
         const __m256d low = _mm256_add_pd(_mm256_maskload_pd(from, corner_lanes_mask(bits)), by);
         const __m256d high = _mm256_add_pd(_mm256_maskload_pd(from + 4, corner_lanes_mask(bits >> 4)), by);
         if (shifted) {
-            _mm256_storeu_pd(shifted[4 * block], low);
-            _mm256_storeu_pd(shifted[4 * block + 2], high);
+            _mm256_storeu_pd(shifted[4 * part], low);
+            _mm256_storeu_pd(shifted[4 * part + 2], high);
         }
-        read.x[block] = (corner_lanes)_mm256_permute4x64_pd(_mm256_unpacklo_pd(low, high), 0xd8);
-        read.y[block] = (corner_lanes)_mm256_permute4x64_pd(_mm256_unpackhi_pd(low, high), 0xd8);
+        read.x[part] = (corner_lanes)_mm256_permute4x64_pd(_mm256_unpacklo_pd(low, high), 0xd8);
+        read.y[part] = (corner_lanes)_mm256_permute4x64_pd(_mm256_unpackhi_pd(low, high), 0xd8);
     }
     return read;
 }

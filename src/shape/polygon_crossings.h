@@ -22,10 +22,28 @@ static inline int scree_next_corner(int count, int k)
     return k + 1 < count ? k + 1 : 0;
 }
 
+/// A bit for each corner that is there.
+SCREE_INLINE uint32_t scree_corner_bits(int count)
+{
+    return UINT32_MAX >> (32 - count);
+}
+
 /// The bit of the next corner, at the place of each corner.
 SCREE_INLINE uint32_t scree_bits_of_next(uint32_t bits, int count)
 {
     return bits >> 1 | (bits & 1) << (count - 1);
+}
+
+/// Edges with an end among the corners given as bits; an edge has the number of its first end.
+SCREE_INLINE uint32_t scree_edges_at(uint32_t corners, int count)
+{
+    return corners | scree_bits_of_next(corners, count);
+}
+
+/// Both ends of the edges given as bits.
+SCREE_INLINE uint32_t scree_ends_of(uint32_t edges, int count)
+{
+    return (edges | edges << 1 | edges >> (count - 1)) & scree_corner_bits(count);
 }
 
 /// Crossings by the edge of the first body: the edge of the second, where the first outline goes in and where it comes
@@ -54,6 +72,13 @@ SCREE_INLINE bool scree_edge_separates(const scree_polygon_pair *pair, int body,
     return outside;
 }
 
+/// Larger than the error of a projection on the line of the centres.
+SCREE_INLINE double scree_projection_margin(const scree_polygon_pair *pair, const double apart[2])
+{
+    double extent = fabs(apart[0]) + fabs(apart[1]);
+    return 0x1p-49 * extent * (pair->bound[0] + pair->bound[1] + extent);
+}
+
 /// Corners as bits that the projections on the line of the centres leave; false: they separate the bodies.
 SCREE_INLINE bool scree_polygon_select(const scree_polygon_pair *pair, const double apart[2], uint32_t near[2])
 {
@@ -65,8 +90,7 @@ SCREE_INLINE bool scree_polygon_select(const scree_polygon_pair *pair, const dou
             if (b == 0 && (k == 0 || p > reach)) reach = p;
             if (b == 1 && (k == 0 || p < least)) least = p;
         }
-    double extent = fabs(apart[0]) + fabs(apart[1]);
-    double margin = 0x1p-49 * extent * (pair->bound[0] + pair->bound[1] + extent);
+    const double margin = scree_projection_margin(pair, apart);
     if (reach < least - margin) return false;
     near[0] = near[1] = 0;
     for (int k = 0; k < pair->count[0]; k++) near[0] |= (uint32_t) !(projection[0][k] < least - margin) << k;
@@ -80,10 +104,8 @@ SCREE_INLINE void scree_polygon_cross(const scree_polygon_pair *pair, const uint
 {
     const double(*p)[2] = pair->corner[0], (*q)[2] = pair->corner[1];
     int n = pair->count[0], m = pair->count[1];
-    uint32_t p_edges = near[0] | scree_bits_of_next(near[0], n), q_edges = near[1] | scree_bits_of_next(near[1], m);
-    // Both ends of each edge that is left.
-    uint32_t p_ends = p_edges | p_edges << 1 | p_edges >> (n - 1);
-    if (n < 32) p_ends &= ((uint32_t)1 << n) - 1;
+    const uint32_t p_edges = scree_edges_at(near[0], n), q_edges = scree_edges_at(near[1], m);
+    const uint32_t p_ends = scree_ends_of(p_edges, n);
     crossings->entering = crossings->leaving = 0;
     for (uint32_t js = q_edges; js; js &= js - 1) {
         int j = __builtin_ctz(js);

@@ -18,7 +18,7 @@ SCREE_INLINE bool scree_lanes_few(const scree_polygon_pair *pair)
 
 #if SCREE_CORNER_LANES > 0
 
-/// Lanes of the corners of one body.
+/// Blocks of corners of one body.
 enum { SCREE_PAIR_BLOCKS = SCREE_POLYGON_CORNERS / SCREE_CORNERS_IN_LANES };
 
 /// Corners of both bodies in the coordinates of the first, eight in a block.
@@ -57,13 +57,13 @@ SCREE_INLINE void scree_pair_lanes_load(bool few, const scree_polygon_pair *pair
 SCREE_INLINE uint32_t scree_lanes_left(const double a[2], const double b[2], const polygon_lanes *c, uint32_t *certain)
 {
     uint32_t left = 0, right = 0;
-    CORNER_BLOCK_LOOP
+    CORNER_VECTOR_LOOP
     {
-        const corner_lanes one = (b[0] - a[0]) * (c->y[block] - a[1]), other = (b[1] - a[1]) * (c->x[block] - a[0]);
+        const corner_lanes one = (b[0] - a[0]) * (c->y[part] - a[1]), other = (b[1] - a[1]) * (c->x[part] - a[0]);
         const corner_lanes side = one - other;
         const corner_lanes error = SCREE_SIDE_ERROR * (corner_lanes_magnitude(one) + corner_lanes_magnitude(other));
-        left |= corner_lanes_above(side, error) << SCREE_CORNER_LANES * block;
-        right |= corner_lanes_above(-error, side) << SCREE_CORNER_LANES * block;
+        left |= corner_lanes_above(side, error) << SCREE_CORNER_LANES * part;
+        right |= corner_lanes_above(-error, side) << SCREE_CORNER_LANES * part;
     }
     *certain = left | right;
     return left;
@@ -86,17 +86,36 @@ SCREE_INLINE bool scree_lanes_separate(bool few, const scree_polygon_pair *pair,
     uint32_t beyond = 0;
     for (int k = 0; k < scree_lanes_blocks(few, count); k++) {
         uint32_t certain, left = scree_lanes_beside(pair, both, body, edge, k, &certain);
-        beyond |= corner_lanes_there(scree_lanes_count(few, count, k)) & (left | ~certain);
+        beyond |= scree_corner_bits(scree_lanes_count(few, count, k)) & (left | ~certain);
     }
     return beyond == 0;
 }
 
-/// Projections of a block of corners times `sense`, which is 1 or -1; returns the largest.
-SCREE_INLINE double scree_lanes_project(const polygon_lanes *c, int count, const double along[2], double sense,
-                                        corner_lanes projection[SCREE_CORNER_BLOCKS])
+/// Projections of a body, by block.
+typedef corner_lanes scree_projections[SCREE_PAIR_BLOCKS][SCREE_CORNER_VECTORS];
+
+/// Projections times `sense`, which is 1 or -1; returns the largest.
+SCREE_INLINE double scree_lanes_project(bool few, int count, const polygon_lanes *c, const double along[2],
+                                        double sense, scree_projections projection)
 {
-    CORNER_BLOCK_LOOP projection[block] = sense * (c->x[block] * along[0] + c->y[block] * along[1]);
-    return corner_lanes_largest(corner_lanes_there(count), projection);
+    double reach = -INFINITY;
+    for (int k = 0; k < scree_lanes_blocks(few, count); k++) {
+        CORNER_VECTOR_LOOP projection[k][part] = sense * (c[k].x[part] * along[0] + c[k].y[part] * along[1]);
+        const double largest = corner_lanes_largest(scree_corner_bits(scree_lanes_count(few, count, k)), projection[k]);
+        reach = largest > reach ? largest : reach;
+    }
+    return reach;
+}
+
+/// Corners whose projection is not below a limit.
+SCREE_INLINE uint32_t scree_lanes_not_below(bool few, int count, scree_projections projection, double limit)
+{
+    const corner_lanes all = limit - (corner_lanes){0};
+    uint32_t below = 0;
+    for (int k = 0; k < scree_lanes_blocks(few, count); k++)
+        CORNER_VECTOR_LOOP below |= corner_lanes_above(all, projection[k][part])
+                                    << (SCREE_CORNERS_IN_LANES * k + SCREE_CORNER_LANES * part);
+    return scree_corner_bits(count) & ~below;
 }
 
 /// scree_polygon_select, but for rounding where one body begins behind the other. Projections of the second body are
@@ -104,29 +123,13 @@ SCREE_INLINE double scree_lanes_project(const polygon_lanes *c, int count, const
 SCREE_INLINE bool scree_lanes_select(bool few, const scree_polygon_pair *pair, const scree_pair_lanes *both,
                                      const double apart[2], uint32_t near[2])
 {
-    corner_lanes projection[2][SCREE_PAIR_BLOCKS][SCREE_CORNER_BLOCKS];
-    double reach[2] = {-INFINITY, -INFINITY};
-    _Pragma("GCC unroll 2") for (int b = 0; b < 2; b++) for (int k = 0; k < scree_lanes_blocks(few, pair->count[b]);
-                                                             k++)
-    {
-        const double largest = scree_lanes_project(&both->body[b][k], scree_lanes_count(few, pair->count[b], k), apart,
-                                                   b == 0 ? 1 : -1, projection[b][k]);
-        reach[b] = largest > reach[b] ? largest : reach[b];
-    }
-    const double extent = fabs(apart[0]) + fabs(apart[1]);
-    const double margin = 0x1p-49 * extent * (pair->bound[0] + pair->bound[1] + extent);
-    const corner_lanes none = {0};
-    _Pragma("GCC unroll 2") for (int b = 0; b < 2; b++)
-    {
-        near[b] = 0;
-        for (int k = 0; k < scree_lanes_blocks(few, pair->count[b]); k++) {
-            uint32_t beyond = 0;
-            CORNER_BLOCK_LOOP beyond |= corner_lanes_above(none + (-reach[1 - b] - margin), projection[b][k][block])
-                                        << SCREE_CORNER_LANES * block;
-            near[b] |= (corner_lanes_there(scree_lanes_count(few, pair->count[b], k)) & ~beyond)
-                       << SCREE_CORNERS_IN_LANES * k;
-        }
-    }
+    const int *count = pair->count;
+    scree_projections first, second;
+    const double reach = scree_lanes_project(few, count[0], both->body[0], apart, 1, first);
+    const double back = scree_lanes_project(few, count[1], both->body[1], apart, -1, second);
+    const double margin = scree_projection_margin(pair, apart);
+    near[0] = scree_lanes_not_below(few, count[0], first, -back - margin);
+    near[1] = scree_lanes_not_below(few, count[1], second, -reach - margin);
     // What is not a number lies on no side, and counts as near.
     return (near[0] | near[1]) != 0;
 }
@@ -161,19 +164,13 @@ SCREE_INLINE uint32_t scree_lanes_list(uint64_t table, uint8_t edge_of_second[SC
     return edges;
 }
 
-/// Both ends of the edges given as bits.
-SCREE_INLINE uint32_t scree_ends_of(uint32_t edges, int count)
-{
-    return (edges | edges << 1 | edges >> (count - 1)) & corner_lanes_there(count);
-}
-
 /// scree_polygon_cross of two blocks; false: not for certain.
 SCREE_INLINE bool scree_lanes_cross(const scree_polygon_pair *pair, const scree_pair_lanes *both,
                                     const uint32_t near[2], scree_crossings *crossings)
 {
     uint32_t edges[2], ends[2];
     for (int b = 0; b < 2; b++) {
-        edges[b] = near[b] | scree_bits_of_next(near[b], pair->count[b]);
+        edges[b] = scree_edges_at(near[b], pair->count[b]);
         ends[b] = scree_ends_of(edges[b], pair->count[b]);
     }
     uint64_t of_first, of_second, left, unused;
