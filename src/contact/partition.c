@@ -136,7 +136,8 @@ static scree_status cut(contact_scratch *scratch, const scree_work *work, const 
 static bool is_current(const contact_scratch *scratch, const scree_work *work, size_t rows, bool moments)
 {
     return scratch->part_count == scree_work_shares(work) && scratch->rebuilds == work->rebuilds &&
-           scratch->first == work->pairs.first && scratch->section_count == work->pairs.section_count &&
+           scratch->orders == work->pairs.orders && scratch->first == work->pairs.first &&
+           scratch->section_count == work->pairs.section_count &&
            memcmp(scratch->section, work->pairs.section, (size_t)scratch->section_count * sizeof *scratch->section) ==
                0 &&
            scratch->rows == rows && (scratch->moments || !moments);
@@ -155,6 +156,7 @@ contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *st
         return NULL;
     }
     scratch->rebuilds = work->rebuilds;
+    scratch->orders = work->pairs.orders;
     scratch->first = work->pairs.first;
     scratch->section_count = work->pairs.section_count;
     memcpy(scratch->section, work->pairs.section, sizeof scratch->section);

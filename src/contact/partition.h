@@ -27,7 +27,7 @@ typedef struct contact_scratch {
     size_t near_capacity;
     size_t near_byte[SCREE_PAIR_SECTIONS + 1];
     // the list that all this belongs to
-    uint64_t rebuilds;
+    uint64_t rebuilds, orders;
     const uint32_t *first;
     scree_pair_section section[SCREE_PAIR_SECTIONS];
     int section_count;

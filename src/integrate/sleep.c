@@ -20,8 +20,8 @@
 ///
 /// An approximation: pushes below `wake` do not pass what sleeps, and motion below `force` and `motion` stops; momentum
 /// is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md. Cost: 2 ns a body
-/// that sleeps, 20 ns one that is pushed, or awake (every FALL_EVERY steps); a new neighbour list when one falls asleep
-/// or wakes.
+/// that sleeps, 20 ns one that is pushed, or awake (every FALL_EVERY steps); 2 ns a pair of neighbours when one falls
+/// asleep or wakes (search/sections.c).
 #include "state/sleep.h"
 
 #include "base/checksum.h"
@@ -41,7 +41,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Steps from one time at which some wake, or fall asleep, to the next: each makes a new list.
+/// Steps from one time at which some wake, or fall asleep, to the next: each looks at all pairs.
 enum { WAKE_EVERY = 16, FALL_EVERY = 128 };
 _Static_assert(FALL_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
 

@@ -431,6 +431,17 @@ static void derive_ghosts(scree_state *state, const scree_work *work)
         if (scree_modules[m]->derive_ghosts) scree_modules[m]->derive_ghosts(state, work);
 }
 
+static void note_sleepers(scree_state *state, scree_work *work)
+{
+    work->pairs.sleep_changes = scree_sleep_of(state)->changes;
+    scree_sleep_list(state);
+}
+
+static bool sleepers_have_changed(const scree_state *state, const scree_work *work)
+{
+    return work->pairs.sleep_changes != scree_sleep_of(state)->changes;
+}
+
 static scree_status rebuild(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
@@ -486,8 +497,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work) - scree_deformation_of(state)->largest_reach;
-    work->pairs.sleep_changes = scree_sleep_of(state)->changes;
-    scree_sleep_list(state);
+    note_sleepers(state, work);
     work->rebuilds++;
     return SCREE_OK;
 }
@@ -515,8 +525,17 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
 
 bool scree_neighbours_are_due(const scree_state *state, const scree_work *work)
 {
-    return scree_held_changed(state, &work->search->held) ||
-           work->pairs.sleep_changes != scree_sleep_of(state)->changes;
+    return scree_held_changed(state, &work->search->held) || (state->part && sleepers_have_changed(state, work));
+}
+
+/// The same pairs, in other sections. Bodies that have woken may have gone a way before they fell asleep: the budget
+/// knows nothing of it.
+static scree_status follow_sleepers(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_status status = scree_pair_sections_renew(model, state, work, error);
+    if (status) return status;
+    note_sleepers(state, work);
+    return check_list(model, state, work, error);
 }
 
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
@@ -539,5 +558,6 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
     if (status) return status;
     if (!stands || due || work->moved.due > 0 || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
+    if (sleepers_have_changed(state, work)) return follow_sleepers(model, state, work, error);
     return work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
 }

@@ -15,8 +15,8 @@
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error) SCREE_MUST_USE;
 
-/// Whether pairs that are held, or bodies that sleep, have changed in this process since the list was made: it is due
-/// then in all of them.
+/// Whether pairs that are held, or, where the state is a part, bodies that sleep, have changed in this process since the
+/// list was made: it is due then in all of them.
 bool scree_neighbours_are_due(const scree_state *state, const scree_work *work);
 
 /// Forces a rebuild at the next refresh; histories are kept (they must have been saved if `work` is about to go).

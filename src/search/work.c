@@ -47,7 +47,8 @@ void scree_neighbours_release(scree_work *work)
     scree_cell_grid_destroy(&search->grid);
     scree_release(&search->entry_begin);
     scree_release(&search->entry);
-    search->entry_begin_capacity = search->entry_capacity = 0;
+    scree_release(&search->part);
+    search->entry_begin_capacity = search->entry_capacity = search->part_capacity = 0;
     scree_release(&work->ghosts.ghost);
     work->ghosts = (scree_ghost_list){0};
     scree_release(&work->relative);
@@ -67,6 +68,7 @@ void scree_work_destroy(scree_work *work)
         scree_cell_grid_destroy(&search->grid);
         scree_release(&search->entry_begin);
         scree_release(&search->entry);
+        scree_release(&search->part);
     }
     scree_release(&work->search);
     scree_release(&work->ghosts.ghost);

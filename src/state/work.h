@@ -40,7 +40,8 @@ typedef struct scree_pair_list {
     scree_pair_section section[SCREE_PAIR_SECTIONS];
     int section_count;
     uint64_t held_changes;  ///< of the persistent list, when this was made
-    uint64_t sleep_changes; ///< of the bodies that sleep, then
+    uint64_t sleep_changes; ///< of the bodies that sleep, when the sections were cut
+    uint64_t orders;        ///< times that pairs have been put into other sections
     scree_member_row *own;  ///< one a held pair
     size_t own_capacity;
 } scree_pair_list;

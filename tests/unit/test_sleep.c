@@ -6,6 +6,7 @@
 
 #include "contact/contact.h"
 #include "integrate/integrate.h"
+#include "search/search.h"
 #include "state/births.h"
 #include "state/case_walls.h"
 #include "state/sleep.h"
@@ -269,6 +270,39 @@ static uint64_t bits_of(const char *text, const char *override, int threads, int
     return bits;
 }
 
+/// One that sleeps and has no skin of its own.
+static bool find_sleeper(const scree_simulation *s, size_t *row)
+{
+    int next = 0;
+    for (*row = 0; *row < s->state.count; ++*row)
+        if (scree_body_sleeps(&s->state, *row) && scree_fast_number(&s->work.search->fast, *row, &next) < 0)
+            return true;
+    return false;
+}
+
+/// One that had gone a way since the list was made, fell asleep, and wakes: the list is kept, and knows of that way.
+static void a_list_knows_how_far_bodies_had_gone(void **unused)
+{
+    (void)unused;
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        scree_case *c;
+        scree_error error;
+        scree_simulation s = open_with(texts[t], NULL, 0, &c);
+        size_t row;
+        while (!find_sleeper(&s, &row)) simulation_step(&s);
+        check(scree_neighbours_refresh(&s.model, &s.state, &s.work, &error), &error);
+        const uint64_t lists = s.work.rebuilds;
+        const double skin = s.work.skin;
+        s.state.rebuild[row][0] += 0.4 * skin;
+        s.work.budget = 0.5 * skin;
+        scree_sleep_end(&s.state);
+        check(scree_neighbours_refresh(&s.model, &s.state, &s.work, &error), &error);
+        assert_int_equal(s.work.rebuilds, lists);
+        assert_true(s.work.budget < 0.2 * skin);
+        close_both(&s, c);
+    }
+}
+
 static void nothing_but_the_state_decides(void **unused)
 {
     (void)unused;
@@ -315,6 +349,7 @@ int main(void)
         cmocka_unit_test(what_falls_does_not_sleep),
         cmocka_unit_test(gravity_wakes),
         cmocka_unit_test(a_push_wakes_at_its_mean),
+        cmocka_unit_test(a_list_knows_how_far_bodies_had_gone),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(a_restart_goes_on),
     };
