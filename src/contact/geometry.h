@@ -16,20 +16,19 @@
 #include "contact/law.h"
 #include "contact/round.h"
 
-#if SCREE_LANES == 1
+/// Kernels know those in lanes alone, but for those of outlines (outlines_batch.c). A test may have one of its own
+/// behind all others, with code that it compiles itself.
+#ifdef SCREE_MORE_GEOMETRIES
 #include "contact/outlines.h"
-#include "contact/rounded.h"
-#endif
-
-/// Kernels know those in lanes alone. A test may have one of its own behind all others, with code that it compiles
-/// itself.
-#ifndef SCREE_MORE_GEOMETRIES
+#else
 #define SCREE_MORE_GEOMETRIES(row)
 #endif
 #if SCREE_LANES == 1
+#include "contact/outlines.h"
+#include "contact/rounded.h"
 #define ALL_GEOMETRIES(row) SCREE_GEOMETRIES(row) SCREE_MORE_GEOMETRIES(row)
 #else
-#define ALL_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row)
+#define ALL_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row) SCREE_MORE_GEOMETRIES(row)
 #endif
 
 /// Their numbers, by which sections and variants call them: the model finds them in the same order.
@@ -74,6 +73,7 @@ SCREE_INLINE kinematics geometry_kinematics(variant v, const bodies *first, cons
     return (kinematics){.overlap = lanes_all(0)};
 }
 
+#if SCREE_LANES == 1
 #define GEOMETRY_BESIDE(name) GEOMETRY_CALL(name, beside, body, normal, distance, step)
 SCREE_INLINE kinematics geometry_beside(variant v, const bodies *body, const double normal[3], double distance,
                                         double step)
@@ -81,6 +81,7 @@ SCREE_INLINE kinematics geometry_beside(variant v, const bodies *body, const dou
     ALL_GEOMETRIES(GEOMETRY_BESIDE)
     return (kinematics){.overlap = lanes_all(0)};
 }
+#endif
 
 /// Whether laws of areas take it.
 SCREE_INLINE bool geometry_has_areas(variant v)

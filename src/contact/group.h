@@ -11,6 +11,7 @@ typedef struct group {
     size_t pair[SCREE_LANES];
     size_t first[SCREE_LANES], second[SCREE_LANES]; ///< bytes
     lanes_bits present;
+    const struct outlines_share *share; ///< of geometries that find it pair by pair
 } group;
 
 SCREE_INLINE void find_bodies(const contact_job *job, group *g)
@@ -40,10 +41,11 @@ SCREE_INLINE columns load_turns(const contact_job *job, const size_t offset[SCRE
     return columns_load(row);
 }
 
-SCREE_INLINE prediction load_predicted(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+/// of: rows of all bodies.
+SCREE_INLINE prediction load_predicted(int dimension, const scree_predicted *of, const uint32_t *body, const group *g)
 {
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = &job->predicted[body[g->pair[k]]].vx;
+    LANE_LOOP row[k] = &of[body[g->pair[k]]].vx;
     columns c = columns_load(row);
     prediction ahead = {.velocity = {c.c0, c.c1, c.c2}, .contacts = c.c3};
     ahead.spin.x = c.c2;
@@ -258,6 +260,16 @@ SCREE_INLINE void add_moments_of_pair(variant v, const contact_job *job, const g
                 force);
 }
 
+/// Rates of dashpots where the motion of the bodies at n is known: of geometries whose kernels know it.
+SCREE_INLINE void kinematics_lead(variant v, const contact_job *job, const group *g, const bodies *first,
+                                  const bodies *second, kinematics *m)
+{
+    if (!job->lead) return;
+    const bodies one = bodies_at_end(v.dimension, first, load_predicted(v.dimension, job->lead, job->first, g));
+    const bodies other = bodies_at_end(v.dimension, second, load_predicted(v.dimension, job->lead, job->second, g));
+    kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
+}
+
 SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, totals *t)
 {
     const int dimension = v.dimension;
@@ -269,15 +281,20 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
     load_spins(dimension, job, g->second, &second);
+    first.share = g->share;
     kinematics m = geometry_kinematics(v, &first, &second, job->settings.step);
+    if (geometry_is_coarse(v)) {
+        kinematics_lead(v, job, g, &first, &second, &m);
+        touching &= expanded_touch(&m);
+    }
     if (law_deforms(v)) {
         const stretch both = load_stretches(dimension, job, g);
         kinematics_expand(dimension, &m, &both, job->settings.step);
         if (!law_holds(v)) touching &= expanded_touch(&m);
     }
     if (law_predicts(v)) {
-        prediction ahead = load_predicted(dimension, job, job->first, g);
-        prediction ahead_second = load_predicted(dimension, job, job->second, g);
+        prediction ahead = load_predicted(dimension, job->predicted, job->first, g);
+        prediction ahead_second = load_predicted(dimension, job->predicted, job->second, g);
         kinematics_predict(dimension, &m, &first, &ahead, &second, &ahead_second);
     }
     law_constants constants = load_constants(job, v, first.material, second.material);

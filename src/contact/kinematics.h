@@ -51,6 +51,7 @@ typedef struct bodies {
     const struct scree_state *state;    ///< one body at a time: where its geometry finds more of it,
     size_t row;                         ///< in this row;
     const struct scree_predicted *lead; ///< one body at a time: what it moves faster at n; NULL: not known
+    const struct outlines_share *share; ///< of the first, in lanes: what outlines share (outlines.h)
     int8_t *hint;                       ///< what it may keep of a pair, to be faster, with no effect; NULL: nothing
 } bodies;
 
@@ -224,6 +225,15 @@ SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector veloci
         m->slip = turn_half(m, m->slip);
     }
     kinematics_set_dashpots(dimension, m);
+}
+
+/// With velocity and spin at n.
+SCREE_INLINE bodies bodies_at_end(int dimension, const bodies *body, prediction lead)
+{
+    bodies moving = *body;
+    moving.velocity = vector_plus(dimension, body->velocity, lead.velocity);
+    moving.spin = vector_plus(tangential_count(dimension), body->spin, lead.spin);
+    return moving;
 }
 
 /// The same of geometries with levers: normal, overlap, reduced radius and mass, `tilted`, the levers and their changes

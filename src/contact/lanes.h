@@ -47,6 +47,11 @@ SCREE_INLINE lanes_bits lanes_at_or_below(lanes a, lanes b)
     return -(lanes_bits)(a <= b);
 }
 
+SCREE_INLINE lanes_bits lanes_below(lanes a, lanes b)
+{
+    return -(lanes_bits)(a < b);
+}
+
 SCREE_INLINE lanes_bits lanes_differ(lanes a, lanes b)
 {
     return -(lanes_bits)(a != b);
@@ -110,6 +115,11 @@ SCREE_INLINE lanes lanes_all(double value)
 SCREE_INLINE lanes_bits lanes_at_or_below(lanes a, lanes b)
 {
     return (lanes_bits)(a <= b);
+}
+
+SCREE_INLINE lanes_bits lanes_below(lanes a, lanes b)
+{
+    return (lanes_bits)(a < b);
 }
 
 SCREE_INLINE lanes_bits lanes_differ(lanes a, lanes b)

@@ -14,9 +14,9 @@
 /// What no law can use (one body inside the other, a point near a centre: shape/overlap.h, flags) has an infinite
 /// overlap, which stops the run.
 ///
-/// Pairs are looked at one by one: bounding circles, the edge that kept them apart last (`hint` of the first body,
-/// which can only reject), then the overlap itself. Source: R = P. Roul, PhD thesis, Magdeburg 2009, 2.4. Cost: some
-/// 0.1 us a touching pair of polygons of 7 corners.
+/// What two outlines share is found pair by pair: bounding circles, the edge that kept them apart last (a hint, which
+/// can only reject), then the overlap itself. The rest is done in lanes, one in the scalar reference. Source: R = P.
+/// Roul, PhD thesis, Magdeburg 2009, 2.4. Cost: some 0.1 us a touching pair of polygons of 7 corners.
 #ifndef SCREE_CONTACT_OUTLINES_H
 #define SCREE_CONTACT_OUTLINES_H
 
@@ -37,10 +37,53 @@ SCREE_INLINE lanes_bits outlines_touches(int dimension, const bodies *first, con
     return ~lanes_at_or_below(reach * reach, vector_dot(dimension, apart, apart));
 }
 
-/// The body as it lies.
-SCREE_INLINE scree_polygon outlines_polygon(const bodies *body)
+// ---- what two outlines share ---------------------------------------------------------------------------------------
+
+/// shape/overlap.h in lanes, and what the geometry reads of the two bodies beside their rows. All zero where the
+/// outlines do not meet, but for what is of the bodies.
+typedef struct outlines_share {
+    lanes_bits meet;     ///< masks: the outlines meet;
+    lanes_bits twice;    ///< they cross twice;
+    lanes_bits useless;  ///< no law can use it (flags)
+    lanes area;          ///< m2
+    lanes chord[2];      ///< m
+    lanes arm[2][2];     ///< m
+    lanes edge[2][2][2]; ///< m
+    lanes radius[2];     ///< m, of the discs of equal area
+    lanes turning[2];    ///< m, what inertia is of (state->form)
+} outlines_share;
+
+#if SCREE_LANES == 1
+#define OUTLINES_LANE(member, k) (member)
+#else
+#define OUTLINES_LANE(member, k) (member)[k]
+#endif
+
+/// NULL: nothing.
+SCREE_INLINE void outlines_share_put(outlines_share *share, int k, const scree_overlap *overlap)
 {
-    return scree_polygon_of_row(body->state, scree_polygons_of(body->state), body->row);
+    static const scree_overlap none;
+    const scree_overlap *o = overlap ? overlap : &none;
+    (void)k;
+    OUTLINES_LANE(share->meet, k) = -(uint64_t)(overlap != NULL);
+    OUTLINES_LANE(share->twice, k) = -(uint64_t)(o->crossings == 2);
+    OUTLINES_LANE(share->useless, k) = -(uint64_t)(o->flags != 0);
+    OUTLINES_LANE(share->area, k) = o->area;
+    for (int i = 0; i < 2; i++) {
+        OUTLINES_LANE(share->chord[i], k) = o->chord[i];
+        for (int b = 0; b < 2; b++) {
+            OUTLINES_LANE(share->arm[b][i], k) = o->arm[b][i];
+            for (int e = 0; e < 2; e++) OUTLINES_LANE(share->edge[e][b][i], k) = o->edge[e][b][i];
+        }
+    }
+}
+
+/// A lane without a pair.
+SCREE_INLINE void outlines_share_nothing(outlines_share *share, int k)
+{
+    (void)k;
+    outlines_share_put(share, k, NULL);
+    for (int b = 0; b < 2; b++) OUTLINES_LANE(share->radius[b], k) = OUTLINES_LANE(share->turning[b], k) = 1;
 }
 
 /// False: the outlines do not meet.
@@ -63,100 +106,184 @@ SCREE_INLINE bool outlines_meet(const scree_polygon polygon[2], const double apa
     return true;
 }
 
-/// The turn of the normal [rad] and the ways of the point from both centres [m] in a step. velocity: of the second
-/// centre relative to the first.
-SCREE_INLINE void outlines_move(kinematics *m, const scree_overlap *overlap, const double velocity[2],
-                                const double spin[2], double step)
+/// Finds what the bodies in two rows share, into lane `k`; false: nothing. apart: from the first centre to the second.
+SCREE_INLINE bool outlines_find(const scree_state *state, const scree_polygons *polygons, const uint32_t row[2],
+                                const double apart[2], int8_t *hint, int k, outlines_share *share)
 {
-    double rate[2][2];
-    const double *c = overlap->chord;
-    if (scree_overlap_end_rates(overlap, velocity, spin, step, rate)) {
-        // The chord turns as the line between the crossings does.
-        const double way[2] = {rate[1][0] - rate[0][0], rate[1][1] - rate[0][1]};
-        m->tilted.x = step * (-c[1] * way[1] - c[0] * way[0]) / (c[0] * c[0] + c[1] * c[1]);
-        m->moved_first.x = step * 0.5 * (rate[0][0] + rate[1][0]);
-        m->moved_first.y = step * 0.5 * (rate[0][1] + rate[1][1]);
-        m->moved_second.x = m->moved_first.x - step * velocity[0];
-        m->moved_second.y = m->moved_first.y - step * velocity[1];
-        return;
+    const scree_polygon polygon[2] = {scree_polygon_of_row(state, polygons, row[0]),
+                                      scree_polygon_of_row(state, polygons, row[1])};
+    scree_overlap overlap;
+    (void)k;
+    for (int b = 0; b < 2; b++) {
+        OUTLINES_LANE(share->radius[b], k) = polygon[b].radius;
+        OUTLINES_LANE(share->turning[b], k) = state->form ? state->form[row[b]].turning : polygon[b].bound;
     }
-    m->tilted.x = 0.5 * step * (spin[0] + spin[1]);
-    m->moved_first.x = -step * spin[0] * overlap->arm[0][1];
-    m->moved_first.y = step * spin[0] * overlap->arm[0][0];
-    m->moved_second.x = -step * spin[1] * overlap->arm[1][1];
-    m->moved_second.y = step * spin[1] * overlap->arm[1][0];
+    const bool meet = outlines_meet(polygon, apart, hint, &overlap);
+    outlines_share_put(share, k, meet ? &overlap : NULL);
+    return meet;
 }
 
-/// What does not depend on velocities.
-SCREE_INLINE kinematics outlines_place(const scree_overlap *overlap, double length)
+// ---- the motion ----------------------------------------------------------------------------------------------------
+
+/// l of R 2.31: that of a body alone beside a wall. arm: from its centre to the point.
+SCREE_INLINE lanes outlines_arm_length(const lanes arm[2])
 {
-    const double *c = overlap->chord, chord = sqrt(c[0] * c[0] + c[1] * c[1]);
-    kinematics m = {.normal = {-c[0] / chord, -c[1] / chord, 0},
-                    .overlap = overlap->area / length,
-                    .area = overlap->area,
+    return lanes_root(arm[0] * arm[0] + arm[1] * arm[1]);
+}
+
+SCREE_INLINE lanes outlines_length(const outlines_share *share)
+{
+    const lanes first = outlines_arm_length(share->arm[0]), second = outlines_arm_length(share->arm[1]);
+    return first * second / (first + second);
+}
+
+/// Velocity of one of two crossings relative to the first centre [m/s], exactly: it stays on the outlines of both
+/// bodies. velocity: of the second centre relative to the first. Mask: where it runs less far along an edge in `step`
+/// than a quarter of the chord, so that its velocity says something about the step.
+SCREE_INLINE lanes_bits outlines_crossing_rate(const outlines_share *share, int crossing, const lanes velocity[2],
+                                               const lanes spin[2], double step, lanes rate[2])
+{
+    const lanes *c = share->chord;
+    const lanes half[2] = {-c[1] / 2.0, c[0] / 2.0}, most = c[0] * c[0] + c[1] * c[1];
+    const double sign = crossing == 0 ? -1 : 1;
+    const lanes *one = share->edge[crossing][0], *other = share->edge[crossing][1];
+    const lanes x[2] = {share->arm[0][0] + sign * half[0], share->arm[0][1] + sign * half[1]};
+    const lanes y[2] = {share->arm[1][0] + sign * half[0], share->arm[1][1] + sign * half[1]};
+    const lanes own[2] = {-spin[0] * x[1], spin[0] * x[0]};
+    const lanes passing[2] = {velocity[0] - spin[1] * y[1] - own[0], velocity[1] + spin[1] * y[0] - own[1]};
+    const lanes across = one[0] * other[1] - one[1] * other[0];
+    const lanes share_of_one = (passing[0] * other[1] - passing[1] * other[0]) / across;
+    const lanes way[2] = {share_of_one * one[0], share_of_one * one[1]};
+    for (int i = 0; i < 2; i++) rate[i] = own[i] + way[i];
+    return lanes_below(16.0 * (way[0] * way[0] + way[1] * way[1]) * step * step, most);
+}
+
+/// The turn of the normal [rad] and the ways of the point from both centres [m] in a step. velocity: of the second
+/// centre relative to the first.
+SCREE_INLINE void outlines_move(kinematics *m, const outlines_share *share, const lanes velocity[2],
+                                const lanes spin[2], double step)
+{
+    const lanes *c = share->chord, *first = share->arm[0], *second = share->arm[1];
+    lanes rate[2][2];
+    lanes_bits known = share->meet & share->twice;
+    for (int k = 0; k < 2; k++) known &= outlines_crossing_rate(share, k, velocity, spin, step, rate[k]);
+    // The chord turns as the line between the crossings does.
+    const lanes way[2] = {rate[1][0] - rate[0][0], rate[1][1] - rate[0][1]};
+    const lanes turn = step * (-c[1] * way[1] - c[0] * way[0]) / (c[0] * c[0] + c[1] * c[1]);
+    const lanes x = step * 0.5 * (rate[0][0] + rate[1][0]), y = step * 0.5 * (rate[0][1] + rate[1][1]);
+    m->tilted.x = lanes_select(known, turn, 0.5 * step * (spin[0] + spin[1]));
+    m->moved_first.x = lanes_select(known, x, -step * spin[0] * first[1]);
+    m->moved_first.y = lanes_select(known, y, step * spin[0] * first[0]);
+    m->moved_second.x = lanes_select(known, x - step * velocity[0], -step * spin[1] * second[1]);
+    m->moved_second.y = lanes_select(known, y - step * velocity[1], step * spin[1] * second[0]);
+}
+
+/// What does not depend on velocities. length: l.
+SCREE_INLINE kinematics outlines_place(const outlines_share *share, lanes length)
+{
+    const lanes *c = share->chord, one = lanes_all(1), none = lanes_all(0);
+    const lanes_bits usable = share->meet & ~share->useless, useless = share->meet & share->useless;
+    const lanes chord = lanes_select(usable, lanes_root(c[0] * c[0] + c[1] * c[1]), one);
+    kinematics m = {.normal = {lanes_select(usable, -c[0] / chord, one), lanes_keep(usable, -c[1] / chord), none},
                     .chord = chord,
-                    .length = length,
-                    .lever_first = {overlap->arm[0][0], overlap->arm[0][1], 0},
-                    .lever_second = {overlap->arm[1][0], overlap->arm[1][1], 0}};
-    if (overlap->flags) {
-        m = (kinematics){.normal = {1, 0, 0}, .overlap = INFINITY, .area = INFINITY, .chord = 1, .length = 1};
-        m.lever_first.x = m.lever_second.x = 0;
-    }
+                    .length = lanes_select(usable, length, one),
+                    .lever_first = {lanes_keep(usable, share->arm[0][0]), lanes_keep(usable, share->arm[0][1]), none},
+                    .lever_second = {lanes_keep(usable, share->arm[1][0]), lanes_keep(usable, share->arm[1][1]), none}};
+    m.overlap = lanes_select(useless, lanes_all(INFINITY), share->area / m.length);
+    m.area = lanes_select(useless, lanes_all(INFINITY), share->area);
     return m;
 }
 
 /// Velocities of n - 1/2, for the work that a force at its own pose has done. velocity: of the second centre relative
 /// to the first. The line between the centres is that from lever to lever, also where nothing is shared.
-SCREE_INLINE void outlines_pass(kinematics *m, const double velocity[2], const double spin[2])
+SCREE_INLINE void outlines_pass(kinematics *m, const lanes velocity[2], const lanes spin[2])
 {
-    m->passing = (vector){-velocity[0], -velocity[1], 0};
+    m->passing = (vector){.x = -velocity[0], .y = -velocity[1]};
     m->spin_first = spin[0];
     m->spin_second = spin[1];
 }
 
 /// r^2 / I of a body [1/kg]: what its turning adds to the mobility of the point.
-SCREE_INLINE double outlines_turning(const bodies *body, const double arm[2])
+SCREE_INLINE lanes outlines_turning(const bodies *body, lanes turning, const lanes arm[2])
 {
-    const double turning = body->state->form ? body->state->form[body->row].turning : body->radius;
-    return 2 * (arm[0] * arm[0] + arm[1] * arm[1]) / (body->mass * turning * turning);
+    return 2.0 * (arm[0] * arm[0] + arm[1] * arm[1]) / (body->mass * turning * turning);
 }
 
-SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, const bodies *second, double step)
+/// Where nothing is shared there are no rates.
+SCREE_INLINE void outlines_keep(kinematics *m, lanes_bits meet)
 {
-    const scree_polygon polygon[2] = {outlines_polygon(first), outlines_polygon(second)};
-    const double apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
-    const double velocity[2] = {second->velocity.x - first->velocity.x, second->velocity.y - first->velocity.y};
-    const double spin[2] = {first->spin.x, second->spin.x};
-    scree_overlap overlap;
-    if (!outlines_meet(polygon, apart, first->hint, &overlap)) {
-        kinematics none = {.normal = {1, 0, 0}, .overlap = 0, .chord = 1, .length = 1, .reduced_mass = 1};
-        none.reduced_mass_along = none.rest_length = none.reduced_radius = 1;
-        none.lever_second = (vector){-apart[0], -apart[1], 0};
-        outlines_pass(&none, velocity, spin);
-        return none;
-    }
-    kinematics m = outlines_place(&overlap, scree_overlap_length(&overlap));
-    m.rest_length = m.reduced_radius = polygon[0].radius * polygon[1].radius / (polygon[0].radius + polygon[1].radius);
+    lanes *const rate[] = {&m->arm_first, &m->arm_second,       &m->approach,       &m->slip.x,        &m->roll.x,
+                           &m->tilted.x,  &m->dashpot_approach, &m->dashpot_slip.x, &m->dashpot_roll.x};
+    for (size_t k = 0; k < sizeof rate / sizeof *rate; k++) *rate[k] = lanes_keep(meet, *rate[k]);
+}
+
+SCREE_INLINE kinematics outlines_motion(int dimension, const outlines_share *share, const bodies *first,
+                                        const bodies *second, double step)
+{
+    const lanes apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
+    const lanes velocity[2] = {second->velocity.x - first->velocity.x, second->velocity.y - first->velocity.y};
+    const lanes spin[2] = {first->spin.x, second->spin.x}, *radius = share->radius;
+    kinematics m = outlines_place(share, outlines_length(share));
+    m.lever_second.x = lanes_select(share->meet, m.lever_second.x, -apart[0]);
+    m.lever_second.y = lanes_select(share->meet, m.lever_second.y, -apart[1]);
+    m.rest_length = m.reduced_radius = radius[0] * radius[1] / (radius[0] + radius[1]);
     m.reduced_mass = first->mass * second->mass / (first->mass + second->mass);
-    m.reduced_mass_along =
-        1 / (1 / m.reduced_mass + (outlines_turning(first, overlap.arm[0]) + outlines_turning(second, overlap.arm[1])));
+    m.reduced_mass_along = 1.0 / (1.0 / m.reduced_mass + (outlines_turning(first, share->turning[0], share->arm[0]) +
+                                                          outlines_turning(second, share->turning[1], share->arm[1])));
     outlines_pass(&m, velocity, spin);
-    if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
+    if (step > 0) outlines_move(&m, share, velocity, spin, step);
     kinematics_from_levers(dimension, &m, first, second, step);
+    outlines_keep(&m, share->meet);
     return m;
 }
 
-/// What a wall as the second body does not add to: its radius and mass are infinite. overlap: NULL, nothing is shared.
-SCREE_INLINE void outlines_past_wall(kinematics *m, const bodies *body, double radius, const scree_overlap *overlap,
-                                     double step)
+SCREE_INLINE lanes outlines_reach(const bodies *body)
+{
+    return body->radius;
+}
+
+#if SCREE_LANES > 1
+
+/// What they share has been found.
+SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, const bodies *second, double step)
+{
+    return outlines_motion(dimension, first->share, first, second, step);
+}
+
+#else
+
+SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, const bodies *second, double step)
+{
+    const double apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
+    const uint32_t row[2] = {(uint32_t)first->row, (uint32_t)second->row};
+    outlines_share share;
+    (void)outlines_find(first->state, scree_polygons_of(first->state), row, apart, first->hint, 0, &share);
+    return outlines_motion(dimension, &share, first, second, step);
+}
+
+// ---- walls ---------------------------------------------------------------------------------------------------------
+
+/// The body as it lies.
+SCREE_INLINE scree_polygon outlines_polygon(const bodies *body)
+{
+    return scree_polygon_of_row(body->state, scree_polygons_of(body->state), body->row);
+}
+
+/// Beside a wall, whose radius and mass are infinite. overlap: NULL, nothing is shared.
+SCREE_INLINE kinematics outlines_past_wall(const bodies *body, double radius, const scree_overlap *overlap, double step)
 {
     const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
-    m->rest_length = m->reduced_radius = radius;
-    m->reduced_mass = m->reduced_mass_along = body->mass;
-    outlines_pass(m, velocity, spin);
-    if (!overlap || overlap->flags) return;
-    m->reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap->arm[0]));
-    if (step > 0) outlines_move(m, overlap, velocity, spin, step);
+    const double turning = body->state->form ? body->state->form[body->row].turning : body->radius;
+    outlines_share share;
+    outlines_share_put(&share, 0, overlap);
+    kinematics m = outlines_place(&share, outlines_arm_length(share.arm[0]));
+    m.rest_length = m.reduced_radius = radius;
+    m.reduced_mass = m.reduced_mass_along = body->mass;
+    outlines_pass(&m, velocity, spin);
+    if (!overlap || overlap->flags) return m;
+    m.reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, turning, share.arm[0]));
+    if (step > 0) outlines_move(&m, &share, velocity, spin, step);
+    return m;
 }
 
 /// The velocity of the body is that in the frame of the wall.
@@ -166,10 +293,8 @@ SCREE_INLINE kinematics outlines_beside(const bodies *body, const double normal[
     scree_overlap overlap;
     const bool meet = polygon.count == 0 ? scree_disc_half_plane_overlap(polygon.radius, normal, distance, &overlap)
                                          : scree_polygon_half_plane_overlap(&polygon, normal, distance, &overlap);
-    kinematics m = {.overlap = 0, .chord = 1, .length = 1};
-    if (meet) m = outlines_place(&overlap, scree_overlap_wall_length(&overlap));
+    kinematics m = outlines_past_wall(body, polygon.radius, meet ? &overlap : NULL, step);
     m.normal = (vector){normal[0], normal[1], normal[2]};
-    outlines_past_wall(&m, body, polygon.radius, meet ? &overlap : NULL, step);
     m.tilted.x = 0; // the normal is that of the wall
     return m;
 }
@@ -201,15 +326,9 @@ SCREE_INLINE kinematics outlines_against(const bodies *body, const scree_polygon
     scree_overlap overlap;
     int8_t hint = (int8_t)-outlines_facing_edge(wall, apart);
     const bool meet = outlines_meet(polygon, apart, &hint, &overlap);
-    kinematics m = {.normal = {1, 0, 0}, .overlap = 0, .chord = 1, .length = 1};
-    if (meet) m = outlines_place(&overlap, scree_overlap_wall_length(&overlap));
-    outlines_past_wall(&m, body, polygon[0].radius, meet ? &overlap : NULL, step);
-    return m;
+    return outlines_past_wall(body, polygon[0].radius, meet ? &overlap : NULL, step);
 }
 
-SCREE_INLINE lanes outlines_reach(const bodies *body)
-{
-    return body->radius;
-}
+#endif
 
 #endif

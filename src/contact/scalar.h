@@ -3,6 +3,7 @@
 #define SCREE_CONTACT_SCALAR_H
 
 #include "contact/evaluate.h"
+#include "contact/memory_rows.h"
 #include "state/plates.h"
 
 /// That of two bodies from their rows (state/state.h); second: NULL beside a wall.
@@ -42,26 +43,15 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
     return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
 }
 
-/// The body with velocity and spin at n.
-SCREE_INLINE bodies body_at_end(int dimension, const bodies *body)
-{
-    const int count = tangential_count(dimension);
-    const prediction lead = prediction_get(dimension, body->lead);
-    bodies moving = *body;
-    moving.velocity = vector_plus(dimension, body->velocity, lead.velocity);
-    moving.spin = vector_plus(count, body->spin, lead.spin);
-    return moving;
-}
-
 /// Rates of dashpots where the motion of the bodies at n is known. second: NULL beside a wall.
 SCREE_INLINE void kinematics_lead(variant v, kinematics *m, const bodies *first, const bodies *second)
 {
     if (!first->lead) return;
-    const bodies one = body_at_end(v.dimension, first);
+    const bodies one = bodies_at_end(v.dimension, first, prediction_get(v.dimension, first->lead));
     if (!second) {
         kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, NULL);
     } else {
-        const bodies other = body_at_end(v.dimension, second);
+        const bodies other = bodies_at_end(v.dimension, second, prediction_get(v.dimension, second->lead));
         kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
     }
     if (geometry_has_gains(v)) kinematics_gain_at_end(v.dimension, m);
@@ -92,13 +82,6 @@ static inline void torque_row_add(scree_torque_row *sum, uint64_t x, uint64_t y,
     sum->z = (int64_t)((uint64_t)sum->z + z);
 }
 
-/// What a contact remembers, as rows; those that do not exist are NULL.
-typedef struct memory_rows {
-    scree_history *history;
-    scree_last_force *last_force;
-    scree_rolling *rolling;
-} memory_rows;
-
 static inline law_memory memory_get(variant v, const memory_rows *rows)
 {
     law_memory memory = {0};
@@ -119,25 +102,6 @@ static inline void memory_set(variant v, const memory_rows *rows, const law_memo
         if (law_rolls(v)) rows->rolling->value[k] = memory->rolling[k];
         if (law_rolls(v)) rows->rolling->last[k] = (float)memory->rolling_last[k];
     }
-}
-
-/// Rows of contact `k` of a list.
-static inline memory_rows memory_rows_at(scree_history *history, scree_last_force *last_force, scree_rolling *rolling,
-                                         size_t k)
-{
-    return (memory_rows){history + k, last_force ? last_force + k : NULL, rolling ? rolling + k : NULL};
-}
-
-/// A contact that has opened has all its rows clear, so the history row tells, but for what only rolls.
-static inline bool memory_is_clear(const memory_rows *rows)
-{
-    bool clear = true;
-    for (int k = 0; k < 4; k++) {
-        clear = clear && rows->history->value[k] == 0;
-        if (rows->last_force) clear = clear && rows->last_force->value[k] == 0;
-        if (rows->rolling) clear = clear && rows->rolling->value[k] == 0 && rows->rolling->last[k] == 0;
-    }
-    return clear;
 }
 
 /// Two bodies, each with what its geometry reads of it.

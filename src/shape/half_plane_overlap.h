@@ -19,10 +19,4 @@ bool scree_polygon_half_plane_overlap(const scree_polygon *polygon, const double
 
 bool scree_disc_half_plane_overlap(double radius, const double normal[2], double height, scree_overlap *overlap);
 
-/// l of a contact with a wall [m].
-SCREE_INLINE double scree_overlap_wall_length(const scree_overlap *overlap)
-{
-    return sqrt(overlap->arm[0][0] * overlap->arm[0][0] + overlap->arm[0][1] * overlap->arm[0][1]);
-}
-
 #endif

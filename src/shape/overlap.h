@@ -104,30 +104,6 @@ SCREE_INLINE void scree_overlap_finish(scree_overlap *overlap, const double apar
     }
 }
 
-/// Velocities of both crossings relative to the first centre [m/s], exactly: a crossing stays on the outlines of both
-/// bodies. velocity: of the second centre relative to the first [m/s]. False: there are not two crossings, or one runs
-/// farther along an edge in `step` [s] than a quarter of the chord, so that its velocity says nothing about the step.
-SCREE_INLINE bool scree_overlap_end_rates(const scree_overlap *overlap, const double velocity[2], const double spin[2],
-                                          double step, double rate[2][2])
-{
-    const double half[2] = {-overlap->chord[1] / 2, overlap->chord[0] / 2};
-    const double most = overlap->chord[0] * overlap->chord[0] + overlap->chord[1] * overlap->chord[1];
-    if (overlap->crossings != 2) return false;
-    for (int k = 0; k < 2; k++) {
-        const double sign = k == 0 ? -1 : 1, *one = overlap->edge[k][0], *other = overlap->edge[k][1];
-        const double x[2] = {overlap->arm[0][0] + sign * half[0], overlap->arm[0][1] + sign * half[1]};
-        const double y[2] = {overlap->arm[1][0] + sign * half[0], overlap->arm[1][1] + sign * half[1]};
-        const double own[2] = {-spin[0] * x[1], spin[0] * x[0]};
-        const double passing[2] = {velocity[0] - spin[1] * y[1] - own[0], velocity[1] + spin[1] * y[0] - own[1]};
-        const double across = one[0] * other[1] - one[1] * other[0];
-        const double share = (passing[0] * other[1] - passing[1] * other[0]) / across;
-        const double way[2] = {share * one[0], share * one[1]};
-        if (!(16 * (way[0] * way[0] + way[1] * way[1]) * step * step < most)) return false;
-        for (int i = 0; i < 2; i++) rate[k][i] = own[i] + way[i];
-    }
-    return true;
-}
-
 /// The same overlap with the two bodies exchanged.
 SCREE_INLINE void scree_overlap_exchange(scree_overlap *overlap)
 {
@@ -144,16 +120,6 @@ SCREE_INLINE void scree_overlap_exchange(scree_overlap *overlap)
         overlap->arm[0][i] = overlap->arm[1][i];
         overlap->arm[1][i] = arm;
     }
-}
-
-/// l = r_1 r_2 / (r_1 + r_2) of R 2.31, r the distances of the point from the centres (not a length of the contact)
-/// [m].
-SCREE_INLINE double scree_overlap_length(const scree_overlap *overlap)
-{
-    const double(*arm)[2] = overlap->arm;
-    double first = sqrt(arm[0][0] * arm[0][0] + arm[0][1] * arm[0][1]);
-    double second = sqrt(arm[1][0] * arm[1][0] + arm[1][1] * arm[1][1]);
-    return first * second / (first + second);
 }
 
 /// dA/dt [m2/s] from velocities [m/s] and spins [rad/s] of both bodies.

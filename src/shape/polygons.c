@@ -2,16 +2,17 @@
 #include "shape/polygons.h"
 
 #include "base/checksum.h"
+#include "base/processor.h"
 #include "case/check.h"
 #include "module/key_rows.h"
 #include "module/shape.h"
 #include "shape/polygon_make.h"
+#include "shape/pose.h"
 #include "shape/rounding.h"
 #include "state/fields.h"
 #include "state/sleep.h"
 
 #include <limits.h>
-#include <sleef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -303,25 +304,24 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
     return fmin(least + scree_rounding_of_row(p, row), bound);
 }
 
-static void turn_corners(const own *p, size_t row, double angle)
+static scree_pose_kernel *kernel(void)
 {
-    const scree_corners of = p->of[row];
-    if (of.count == 0) return;
-    const Sleef_double_2 turn = Sleef_cinz_sincosd1_u10purec(angle);
-    scree_polygon_turn((int)of.count, (const double(*)[2])p->corner + of.first, turn.y, turn.x, p->posed + of.first);
+#if defined(__x86_64__)
+    static scree_pose_kernel *const kernels[] = {[2] = scree_pose_v2, [3] = scree_pose_v3, [4] = scree_pose_v4};
+    return kernels[scree_processor_level()];
+#else
+    return scree_pose_v0;
+#endif
 }
 
 /// Of all, or of those that are awake.
 static void pose_them(scree_state *state, bool all)
 {
-    own *p = scree_polygons_of(state);
-    size_t count;
-    const uint32_t *moving = all ? NULL : scree_moving_rows(state, &count);
-    if (all) count = state->count;
-    for (size_t k = 0; k < count && p->of; k++) {
-        const size_t row = moving ? moving[k] : k;
-        turn_corners(p, row, state->angle[row]);
-    }
+    const own *p = scree_polygons_of(state);
+    scree_pose_rows rows = {.count = state->count};
+    if (!p->of) return;
+    if (!all) rows.row = scree_moving_rows(state, &rows.count);
+    kernel()(p, state->angle, rows);
 }
 
 void scree_polygons_pose(scree_state *state)
@@ -347,8 +347,9 @@ static scree_status derive(scree_state *state, scree_error *error)
 static void derive_ghosts(scree_state *state, const scree_work *work)
 {
     const own *p = scree_polygons_of(state);
-    const size_t rows = scree_row_count(state, work);
-    for (size_t row = rows - work->ghosts.away; row < rows && p->of; row++) turn_corners(p, row, p->heading[row]);
+    const size_t away = work->ghosts.away;
+    if (p->of && away > 0)
+        kernel()(p, p->heading, (scree_pose_rows){.begin = scree_row_count(state, work) - away, .count = away});
 }
 
 // ---- the module --------------------------------------------------------------------------------------------------

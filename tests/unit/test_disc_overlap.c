@@ -129,7 +129,6 @@ static void test_half_plane_is_polygon(void **state)
             for (int c = 0; c < 2; c++) off = fmax(off, fabs(a.arm[c][i] - b.arm[c][i]));
         }
         assert_true(off < 1e-11);
-        near(scree_overlap_wall_length(&a), hypot(a.arm[0][0], a.arm[0][1]), 1);
         assert_true(a.chord[0] * normal[1] - a.chord[1] * normal[0] == 0 ||
                     fabs(a.chord[0] * normal[1] - a.chord[1] * normal[0]) < 1e-15);
     }

@@ -1,6 +1,7 @@
 /// Overlaps of polygons with polygons: closed forms, exact areas, chord and line against differences of the area, the
 /// way through degenerate poses, flags.
 #include "base/processor.h"
+#include "contact/outlines.h"
 #include "polygon_pairs.h"
 #include "testing.h"
 
@@ -45,7 +46,9 @@ static void test_rectangles(void **state)
     near_point(o.chord, 0.25, 0.5);
     near_point(o.arm[0], 0.75, 0.875);
     near_point(o.arm[1], -0.75, -0.875);
-    near(scree_overlap_length(&o), hypot(0.75, 0.875) / 2);
+    outlines_share share;
+    outlines_share_put(&share, 0, &o);
+    near(outlines_length(&share), hypot(0.75, 0.875) / 2);
     assert_int_equal(o.crossings, 2);
     assert_int_equal(o.flags, 0);
     // Face on face, from each side; the smaller one's sides both lie within the larger.

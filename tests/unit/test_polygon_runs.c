@@ -334,7 +334,7 @@ static void only_one_law_has_a_potential(void **unused)
         const scree_polygon polygon = {(const double(*)[2])posed, 6, 1, 1.2};
         scree_overlap o = {.area = 0};
         const bool meet = scree_polygon_half_plane_overlap(&polygon, (const double[2]){0, 1}, apothem - depth, &o);
-        const double chord = hypot(o.chord[0], o.chord[1]), length = meet ? scree_overlap_wall_length(&o) : 1;
+        const double chord = hypot(o.chord[0], o.chord[1]), length = meet ? hypot(o.arm[0][0], o.arm[0][1]) : 1;
         const double now[2] = {meet ? o.area / (length * chord) : 0, o.area};
         for (int law = 0; law < 2 && k > 0; law++) {
             const double step = 0.5 * (now[law] + share[law]) * (o.area - last);

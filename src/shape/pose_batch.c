@@ -1,0 +1,58 @@
+#include "shape/pose.h"
+
+#include "base/kernel_name.h"
+
+#include <sleef.h>
+
+enum { AT_ONCE = 8 };
+
+#if defined(__AVX512F__)
+enum { LANES = 8 };
+#define SINCOS(angle) Sleef_cinz_sincosd8_u10avx512fnofma(_mm512_loadu_pd(angle))
+#define STORE(to, x)  _mm512_storeu_pd(to, x)
+#elif defined(__AVX__)
+enum { LANES = 4 };
+#define SINCOS(angle) Sleef_cinz_sincosd4_u10avx(_mm256_loadu_pd(angle))
+#define STORE(to, x)  _mm256_storeu_pd(to, x)
+#elif defined(__SSE4_1__)
+enum { LANES = 2 };
+#define SINCOS(angle) Sleef_cinz_sincosd2_u10sse4(_mm_loadu_pd(angle))
+#define STORE(to, x)  _mm_storeu_pd(to, x)
+#else
+enum { LANES = 1 };
+#define SINCOS(angle) Sleef_cinz_sincosd1_u10purec(*(angle))
+#define STORE(to, x)  (*(to) = (x))
+#endif
+
+/// The two coordinates of a corner.
+typedef double corner_pair __attribute__((vector_size(16), aligned(8), may_alias));
+
+/// scree_polygon_turn
+static inline void turn(const scree_polygons *p, size_t row, double sine, double cosine)
+{
+    const scree_corners of = p->of[row];
+    const corner_pair along = {cosine, cosine}, across = {-sine, sine};
+    for (size_t k = of.first; k < (size_t)of.first + of.count; k++) {
+        const corner_pair c = *(const corner_pair *)p->corner[k];
+        *(corner_pair *)p->posed[k] = along * c + across * __builtin_shufflevector(c, c, 1, 0);
+    }
+}
+
+void SCREE_KERNEL_NAME(scree_pose)(const scree_polygons *polygons, const double *angle, scree_pose_rows rows)
+{
+    double of[AT_ONCE] = {0}, sine[AT_ONCE], cosine[AT_ONCE];
+    for (size_t begin = 0; begin < rows.count; begin += AT_ONCE) {
+        size_t row[AT_ONCE];
+        const size_t left = rows.count - begin, count = left < AT_ONCE ? left : AT_ONCE;
+        for (size_t k = 0; k < count; k++) {
+            row[k] = rows.row ? rows.row[begin + k] : rows.begin + begin + k;
+            of[k] = angle[row[k]];
+        }
+        for (int k = 0; k < AT_ONCE; k += LANES) {
+            const __typeof__(SINCOS(of)) turned = SINCOS(of + k);
+            STORE(sine + k, turned.x);
+            STORE(cosine + k, turned.y);
+        }
+        for (size_t k = 0; k < count; k++) turn(polygons, row[k], sine[k], cosine[k]);
+    }
+}
