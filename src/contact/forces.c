@@ -4,7 +4,8 @@
 /// Each thread runs the kernels of the sections on its part of the pair list (contact/partition.h), then, after a
 /// barrier, merges a range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or
 /// when asked to (work->reference_kernel), the scalar reference does all the work: same bits, slower. It takes the
-/// place of the kernels, in threads, where the motion at n is known (state->lead), of which they know nothing.
+/// place of the kernels of round bodies, in threads, where the motion at n is known (state->lead), of which they know
+/// nothing.
 #include "base/processor.h"
 #include "comm/comm.h"
 #include "contact/bounds.h"

@@ -40,7 +40,7 @@ typedef struct contact_job {
     const scree_row *row;
     const scree_turn_row *turn;       ///< 3D
     const scree_predicted *predicted; ///< one a row, with law_predicts
-    const scree_predicted *lead;      ///< one a row; NULL: none (state/state.h); kernels in lanes know none
+    const scree_predicted *lead;      ///< one a row; NULL: none (state/state.h); kernels of round bodies know none
     const double *stretch;            ///< with law_deforms: scree_stretch_size numbers a row
     scree_sum_row *sum;               ///< the sum of row r is sum[r]; this thread's own
     scree_torque_row *torque;         ///< 3D, in the same way
