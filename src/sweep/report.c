@@ -1,6 +1,6 @@
-/// The reproduction page. A statement has a row for each form that was run; the first one that has a result, the full
-/// form before the quick one, is counted. Nothing on the page depends on the day or the machine but the results
-/// themselves.
+/// The reproduction page. A statement has a row for each form that was run; the first one that has a result with an
+/// interval, the full form before the quick one, is counted; where none has, the first one with a result. Nothing on
+/// the page depends on the day or the machine but the results themselves.
 #include "sweep/ensemble_figures.h"
 #include "sweep/page_row.h"
 #include "sweep/page_section.h"
@@ -48,6 +48,19 @@ static bool is_open(scree_verdict verdict)
     return verdict == SCREE_DIFFERS || verdict == SCREE_UNDECIDED;
 }
 
+/// One run, or an average over few.
+static bool has_no_interval(const scree_answer *a)
+{
+    return a->verdict == SCREE_UNDECIDED && !(a->interval.count > 1 && isfinite(a->interval.low));
+}
+
+/// Whether the answer of a later form counts in place of the one before: that has no result, or none with an interval.
+static bool says_more(const scree_answer *later, const scree_answer *before)
+{
+    if (before->verdict > SCREE_UNDECIDED) return later->verdict < before->verdict;
+    return has_no_interval(before) && later->verdict <= SCREE_UNDECIDED && !has_no_interval(later);
+}
+
 /// Rows of a statement by the runs in the folders, one a form. open: out, one of them is no agreement.
 static scree_status put_answers(const page *p, const scree_statement_group *group, const scree_statement *s, FILE *file,
                                 bool *open)
@@ -60,8 +73,7 @@ static scree_status put_answers(const page *p, const scree_statement_group *grou
         if (!shown[form]) continue;
         scree_status status = scree_answer_find(p->findings, s, (scree_finding_form)form, &answer[form], p->error);
         if (status) return status;
-        bool better = counted < 0 || answer[counted].verdict > SCREE_UNDECIDED;
-        if (better && (counted < 0 || answer[form].verdict < answer[counted].verdict)) counted = form;
+        if (counted < 0 || says_more(&answer[form], &answer[counted])) counted = form;
         if (first < 0) first = form;
     }
     for (int form = 0; form < SCREE_FINDING_FORMS; form++)
@@ -228,9 +240,9 @@ static const char introduction[] =
     "runs of a point, with bootstrap intervals of 95 %.\n"
     "\n"
     "A *finding* is the source's own, a *check* ours (an identity, a closed form, a stop rule), *beyond* what the\n"
-    "source does not have. Each statement counts once: by its full form where that has a result, else by its quick\n"
-    "form; the verdict that counts is in bold, others stand in brackets. A case that rests on more realisations on "
-    "the\n"
+    "source does not have. Each statement counts once: by its full form where that has a result with an interval,\n"
+    "or the quick one has none, else by its quick form; the verdict that counts is in bold, others stand in\n"
+    "brackets. A case that rests on more realisations on the\n"
     "page that stood here before than in the folders (theirs are gone) keeps its section, a statement its rows.\n";
 
 /// Text of a table: a file, or a built-in one.

@@ -99,6 +99,17 @@ expect 0 '' "$scree" report runs/full --statements mine.yaml -o page.md
 row large | grep -qF '| **agrees** | full |' || complain "full form after the quick one: $(row large)"
 expect 0 '1 cases stay' "$scree" report runs/quick --statements mine.yaml -o page.md
 row large | grep -qF '| **agrees** | full |' || complain "quick form after the full one: $(row large)"
+# One run decides nothing: the quick form counts, which has an interval.
+sweep runs/one/full mine false '' <<'END'
+1 done 0.81 aaa 2.0
+END
+cp -r runs/quick runs/one/
+rm page.md
+expect 0 '' "$scree" report runs/one --statements mine.yaml -o page.md
+row large | head -1 | grep -qF '| 2 | 1 of 1 | (undecided) | full |' || complain "one full run: $(row large)"
+row large | tail -1 | grep -qF '| 1.05 [0.4147, 1.685] | 2 of 2 | **undecided** | quick |' || complain "two quick runs: $(row large)"
+row more | grep -qF '| 2 | 1 of 1 | **undecided** | full |' || complain "one run of the only form: $(row more)"
+rm -r runs/one
 # Several sources; what is built in stays as it is.
 expect 0 '' "$scree" report runs -s mine.yaml --statements padbidri2010 -o page.md
 same "$(grep -c '^## ' page.md)" 2 "sources on the page"
