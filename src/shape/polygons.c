@@ -7,7 +7,6 @@
 #include "module/key_rows.h"
 #include "module/shape.h"
 #include "shape/polygon_make.h"
-#include "shape/pose.h"
 #include "shape/rounding.h"
 #include "state/fields.h"
 #include "state/sleep.h"
@@ -314,14 +313,19 @@ static scree_pose_kernel *kernel(void)
 #endif
 }
 
+static scree_pose pose_of(const own *p, const double *angle)
+{
+    return (scree_pose){.angle = angle, .of = p->of, .corner = (const double(*)[2])p->corner, .posed = p->posed};
+}
+
 /// Of all, or of those that are awake.
 static void pose_them(scree_state *state, bool all)
 {
-    const own *p = scree_polygons_of(state);
-    scree_pose_rows rows = {.count = state->count};
-    if (!p->of) return;
-    if (!all) rows.row = scree_moving_rows(state, &rows.count);
-    kernel()(p, state->angle, rows);
+    scree_pose pose = pose_of(scree_polygons_of(state), state->angle);
+    if (!pose.of) return;
+    pose.count = state->count;
+    if (!all) pose.row = scree_moving_rows(state, &pose.count);
+    kernel()(&pose);
 }
 
 void scree_polygons_pose(scree_state *state)
@@ -347,9 +351,10 @@ static scree_status derive(scree_state *state, scree_error *error)
 static void derive_ghosts(scree_state *state, const scree_work *work)
 {
     const own *p = scree_polygons_of(state);
-    const size_t away = work->ghosts.away;
-    if (p->of && away > 0)
-        kernel()(p, p->heading, (scree_pose_rows){.begin = scree_row_count(state, work) - away, .count = away});
+    scree_pose pose = pose_of(p, p->heading);
+    pose.count = work->ghosts.away;
+    pose.begin = scree_row_count(state, work) - pose.count;
+    if (pose.of && pose.count > 0) kernel()(&pose);
 }
 
 // ---- the module --------------------------------------------------------------------------------------------------

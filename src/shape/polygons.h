@@ -15,12 +15,8 @@
 #define SCREE_SHAPE_POLYGONS_H
 
 #include "shape/core_pair.h"
+#include "shape/pose.h"
 #include "state/body.h"
-
-/// Where the corners of a body are in the pool.
-typedef struct scree_corners {
-    uint32_t first, count;
-} scree_corners;
 
 /// State of the module `polygon`.
 typedef struct scree_polygons {

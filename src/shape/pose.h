@@ -4,16 +4,25 @@
 #ifndef SCREE_SHAPE_POSE_H
 #define SCREE_SHAPE_POSE_H
 
-#include "shape/polygons.h"
+#include <stddef.h>
+#include <stdint.h>
 
-/// Bodies that are turned.
-typedef struct scree_pose_rows {
-    const uint32_t *row; ///< `count` rows; NULL: those from `begin` on
+/// Where the corners of a body are in the pool.
+typedef struct scree_corners {
+    uint32_t first, count;
+} scree_corners;
+
+/// Bodies that are turned: `count` rows `row`, or where that is NULL those from `begin` on.
+typedef struct scree_pose {
+    const uint32_t *row;
     size_t begin, count;
-} scree_pose_rows;
+    const double *angle;       ///< rad, one a row
+    const scree_corners *of;   ///< one a row
+    const double (*corner)[2]; ///< m, the pool, in the frames of the bodies
+    double (*posed)[2];        ///< m, out
+} scree_pose;
 
-/// angle: rad, one a row.
-typedef void scree_pose_kernel(const scree_polygons *polygons, const double *angle, scree_pose_rows rows);
+typedef void scree_pose_kernel(const scree_pose *pose);
 scree_pose_kernel scree_pose_v0, scree_pose_v2, scree_pose_v3, scree_pose_v4;
 
 #endif

@@ -28,7 +28,7 @@ enum { LANES = 1 };
 typedef double corner_pair __attribute__((vector_size(16), aligned(8), may_alias));
 
 /// scree_polygon_turn
-static inline void turn(const scree_polygons *p, size_t row, double sine, double cosine)
+static inline void turn(const scree_pose *p, size_t row, double sine, double cosine)
 {
     const scree_corners of = p->of[row];
     const corner_pair along = {cosine, cosine}, across = {-sine, sine};
@@ -38,21 +38,21 @@ static inline void turn(const scree_polygons *p, size_t row, double sine, double
     }
 }
 
-void SCREE_KERNEL_NAME(scree_pose)(const scree_polygons *polygons, const double *angle, scree_pose_rows rows)
+void SCREE_KERNEL_NAME(scree_pose)(const scree_pose *pose)
 {
     double of[AT_ONCE] = {0}, sine[AT_ONCE], cosine[AT_ONCE];
-    for (size_t begin = 0; begin < rows.count; begin += AT_ONCE) {
+    for (size_t begin = 0; begin < pose->count; begin += AT_ONCE) {
         size_t row[AT_ONCE];
-        const size_t left = rows.count - begin, count = left < AT_ONCE ? left : AT_ONCE;
+        const size_t left = pose->count - begin, count = left < AT_ONCE ? left : AT_ONCE;
         for (size_t k = 0; k < count; k++) {
-            row[k] = rows.row ? rows.row[begin + k] : rows.begin + begin + k;
-            of[k] = angle[row[k]];
+            row[k] = pose->row ? pose->row[begin + k] : pose->begin + begin + k;
+            of[k] = pose->angle[row[k]];
         }
         for (int k = 0; k < AT_ONCE; k += LANES) {
             const __typeof__(SINCOS(of)) turned = SINCOS(of + k);
             STORE(sine + k, turned.x);
             STORE(cosine + k, turned.y);
         }
-        for (size_t k = 0; k < count; k++) turn(polygons, row[k], sine[k], cosine[k]);
+        for (size_t k = 0; k < count; k++) turn(pose, row[k], sine[k], cosine[k]);
     }
 }
