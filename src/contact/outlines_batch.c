@@ -29,8 +29,9 @@ static __attribute__((noinline)) size_t gather(const contact_job *job, size_t p,
         const double apart[2] = {other->x - one->x, other->y - one->y};
         const memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
         const bool clear = memory_is_clear(&rows);
+        int8_t *hint = job->hint ? &job->hint[p] : NULL;
         if (clear && !circles_meet(one, other, apart)) continue;
-        if (!outlines_find(job->state, polygons, row, apart, &job->hint[p], w->count, &w->share) && clear) continue;
+        if (!outlines_find(job->state, polygons, row, apart, hint, w->count, &w->share) && clear) continue;
         w->g.pair[w->count++] = p;
     }
     return p;

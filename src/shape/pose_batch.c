@@ -27,7 +27,8 @@ enum { LANES = 1 };
 /// The two coordinates of a corner.
 typedef double corner_pair __attribute__((vector_size(16), aligned(8), may_alias));
 
-/// scree_polygon_turn
+/// scree_polygon_turn, which is not called here: where there are fused operations gcc 12 makes one of its sum and
+/// difference (vfmaddsub), in spite of -ffp-contract=off, and the bits are others.
 static inline void turn(const scree_pose *p, size_t row, double sine, double cosine)
 {
     const scree_corners of = p->of[row];

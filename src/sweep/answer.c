@@ -420,10 +420,10 @@ static scree_status settle_ensembles(question *q, side *s, bool *mine)
                                      &interval->high, q->error);
     interval->count = fewest_runs(&n);
     if (q->statement->deterministic) interval->low = interval->high = interval->middle;
-    const bool enough = interval->count >= SCREE_ENSEMBLE_FEWEST || q->statement->deterministic;
-    q->answer->verdict = enough ? scree_verdict_of(q->statement, interval) : SCREE_UNDECIDED;
-    if (!enough)
-        remark(q->answer, "averages over fewer than %d samples have no interval of 95 %%", SCREE_ENSEMBLE_FEWEST);
+    const bool few = interval->count < SCREE_ENSEMBLE_FEWEST && !q->statement->deterministic;
+    q->answer->few = few;
+    q->answer->verdict = few ? SCREE_UNDECIDED : scree_verdict_of(q->statement, interval);
+    if (few) remark(q->answer, "averages over fewer than %d samples have no interval of 95 %%", SCREE_ENSEMBLE_FEWEST);
     return status;
 }
 

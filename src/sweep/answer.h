@@ -8,6 +8,7 @@
 typedef struct scree_answer {
     scree_verdict verdict;
     scree_interval interval;
+    bool few;         ///< an average over too few for an interval, whatever it says
     size_t successes; ///< of `holds`
     size_t planned;   ///< realisations that there should be; interval.count is how many there are
     char remark[400]; ///< what a reader has to know of these runs; "" when all is well

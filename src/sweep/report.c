@@ -51,7 +51,7 @@ static bool is_open(scree_verdict verdict)
 /// One run, or an average over few.
 static bool has_no_interval(const scree_answer *a)
 {
-    return a->verdict == SCREE_UNDECIDED && !(a->interval.count > 1 && isfinite(a->interval.low));
+    return a->verdict == SCREE_UNDECIDED && (a->few || a->interval.count < 2 || !isfinite(a->interval.low));
 }
 
 /// Whether the answer of a later form counts in place of the one before: that has no result, or none with an interval.

@@ -105,6 +105,7 @@ case: pour-discs
 realisations: 2
 set: {particles.count: 60, sources.spout.interval: 20 ms, output.paraview: no, output.figures: no}
 ensemble: {cuts: "0,0.4", fit: osl}
+quick_realisations: 6
 END
 sed 's/0,0.4/0,4/' averaged.yaml >bad.yaml
 expect 2 "bad.yaml:5:19: ensemble.cuts: .*says no heights of cuts" "$scree" sweep bad.yaml -n
@@ -122,6 +123,13 @@ cases:
 END
 expect 0 '' "$scree" report averaged -s statements.yaml -o page.md
 grep -qE '^\| plate .*\| 1 \[1, 1\] \| 2 of 2 \| \*\*undecided\*\* .*fewer than 6 samples' page.md || complain "report of an ensemble: $(grep '^| plate' page.md)"
+# Six decide, two do not, whatever their interval: the quick form counts.
+mkdir forms
+cp -r averaged forms/full
+expect 0 '005-seed=6: done' "$scree" sweep averaged.yaml --quick -o forms/quick --jobs 2
+expect 0 '' "$scree" report forms -s statements.yaml -o forms.md
+grep -qE '^\| plate .*\| 2 of 2 \| \(undecided\) \| full' forms.md || complain "two of the full form: $(grep '^| plate' forms.md)"
+grep -qE '^\| plate .*\| 6 of 6 \| \*\*agrees\*\* \| quick' forms.md || complain "six of the quick form: $(grep '^| plate' forms.md)"
 grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/averaged-all-full.png ] || complain "no figure in the report"
 
 # Theories are fitted to three piles or more: BCC is the smooth wedge, and OSL the wedge with a free core.
