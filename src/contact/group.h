@@ -11,7 +11,7 @@ typedef struct group {
     size_t pair[SCREE_LANES];
     size_t first[SCREE_LANES], second[SCREE_LANES]; ///< bytes
     lanes_bits present;
-    const struct outlines_share *share; ///< of geometries that find it pair by pair
+    const struct outlines_found *found; ///< of geometries that find it pair by pair
 } group;
 
 SCREE_INLINE void find_bodies(const contact_job *job, group *g)
@@ -265,8 +265,8 @@ SCREE_INLINE void kinematics_lead(variant v, const contact_job *job, const group
                                   const bodies *second, kinematics *m)
 {
     if (!job->lead) return;
-    const bodies one = bodies_at_end(v.dimension, first, load_predicted(v.dimension, job->lead, job->first, g));
-    const bodies other = bodies_at_end(v.dimension, second, load_predicted(v.dimension, job->lead, job->second, g));
+    const motion_at_n one = motion_at_end(v.dimension, first, load_predicted(v.dimension, job->lead, job->first, g));
+    const motion_at_n other = motion_at_end(v.dimension, second, load_predicted(v.dimension, job->lead, job->second, g));
     kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
 }
 
@@ -281,7 +281,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
     load_spins(dimension, job, g->second, &second);
-    first.share = g->share;
+    first.found = g->found;
     kinematics m = geometry_kinematics(v, &first, &second, job->settings.step);
     if (geometry_is_coarse(v)) {
         kinematics_lead(v, job, g, &first, &second, &m);

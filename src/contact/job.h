@@ -46,7 +46,7 @@ typedef struct contact_job {
     scree_torque_row *torque;         ///< 3D, in the same way
     int64_t *moment;                  ///< in the same way; NULL: not asked for
     const uint32_t *first, *second;   ///< the whole pair list
-    int8_t *hint;                     ///< one a pair; NULL: none
+    scree_pair_hint *hint;            ///< one a pair; NULL: none
     scree_history *history;
     scree_last_force *last_force; ///< with law_keeps_last_force
     scree_rolling *rolling;       ///< with law_rolls

@@ -51,8 +51,7 @@ typedef struct bodies {
     const struct scree_state *state;    ///< one body at a time: where its geometry finds more of it,
     size_t row;                         ///< in this row;
     const struct scree_predicted *lead; ///< one body at a time: what it moves faster at n; NULL: not known
-    const struct outlines_share *share; ///< of the first, in lanes: what outlines share (outlines.h)
-    int8_t *hint;                       ///< what it may keep of a pair, to be faster, with no effect; NULL: nothing
+    const struct outlines_found *found; ///< of the first, in lanes: what of outlines has been found (outlines_lanes.h)
 } bodies;
 
 /// Radius times strain of the bodies of a contact, their sum: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D.
@@ -155,12 +154,17 @@ SCREE_INLINE void kinematics_set_dashpots(int dimension, kinematics *m)
     if (dimension == 3) m->dashpot_twist = m->twist;
 }
 
+/// Velocity and spin of a body at n.
+typedef struct motion_at_n {
+    vector velocity, spin;
+} motion_at_n;
+
 /// Where the motion at n is known, and not only that of the middle of the step: dashpots have the rates of n, in the
 /// geometry of n, which makes their forces functions of places and velocities at one time. Springs, and the work of
 /// all forces, keep the way of the step. levers: of geometries that have them. velocities and spins: at n, of the
 /// first body relative to a wall that moves; second: NULL beside a wall.
-SCREE_INLINE void kinematics_at_end(int dimension, bool levers, kinematics *m, const bodies *first,
-                                    const bodies *second)
+SCREE_INLINE void kinematics_at_end(int dimension, bool levers, kinematics *m, const motion_at_n *first,
+                                    const motion_at_n *second)
 {
     const int count = tangential_count(dimension);
     const vector n = m->normal;
@@ -227,13 +231,10 @@ SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector veloci
     kinematics_set_dashpots(dimension, m);
 }
 
-/// With velocity and spin at n.
-SCREE_INLINE bodies bodies_at_end(int dimension, const bodies *body, prediction lead)
+SCREE_INLINE motion_at_n motion_at_end(int dimension, const bodies *body, prediction lead)
 {
-    bodies moving = *body;
-    moving.velocity = vector_plus(dimension, body->velocity, lead.velocity);
-    moving.spin = vector_plus(tangential_count(dimension), body->spin, lead.spin);
-    return moving;
+    return (motion_at_n){vector_plus(dimension, body->velocity, lead.velocity),
+                         vector_plus(tangential_count(dimension), body->spin, lead.spin)};
 }
 
 /// The same of geometries with levers: normal, overlap, reduced radius and mass, `tilted`, the levers and their changes

@@ -14,13 +14,14 @@
 /// What no law can use (one body inside the other, a point near a centre: shape/overlap.h, flags) has an infinite
 /// overlap, which stops the run.
 ///
-/// What two outlines share is found pair by pair: bounding circles, the edge that kept them apart last (a hint, which
-/// can only reject), then the overlap itself. The rest is done in lanes, one in the scalar reference. Source: R = P.
-/// Roul, PhD thesis, Magdeburg 2009, 2.4. Cost: some 0.1 us a touching pair of polygons of 7 corners.
+/// Where two outlines cross is found pair by pair, and need not be found again before one of them has moved so far that
+/// it may have changed (shape/polygon_hint.h). The rest is done in lanes, one in the scalar reference. Source: R = P.
+/// Roul, PhD thesis, Magdeburg 2009, 2.4. Cost: docs/performance.md.
 #ifndef SCREE_CONTACT_OUTLINES_H
 #define SCREE_CONTACT_OUTLINES_H
 
 #include "contact/kinematics.h"
+#include "contact/outlines_lanes.h"
 #include "module/geometry.h"
 #include "shape/disc_overlap.h"
 #include "shape/half_plane_overlap.h"
@@ -35,55 +36,6 @@ SCREE_INLINE lanes_bits outlines_touches(int dimension, const bodies *first, con
     const vector apart = vector_minus(dimension, first->position, second->position);
     const lanes reach = first->radius + second->radius;
     return ~lanes_at_or_below(reach * reach, vector_dot(dimension, apart, apart));
-}
-
-// ---- what two outlines share ---------------------------------------------------------------------------------------
-
-/// shape/overlap.h in lanes, and what the geometry reads of the two bodies beside their rows. All zero where the
-/// outlines do not meet, but for what is of the bodies.
-typedef struct outlines_share {
-    lanes_bits meet;     ///< masks: the outlines meet;
-    lanes_bits twice;    ///< they cross twice;
-    lanes_bits useless;  ///< no law can use it (flags)
-    lanes area;          ///< m2
-    lanes chord[2];      ///< m
-    lanes arm[2][2];     ///< m
-    lanes edge[2][2][2]; ///< m
-    lanes radius[2];     ///< m, of the discs of equal area
-    lanes turning[2];    ///< m, what inertia is of (state->form)
-} outlines_share;
-
-#if SCREE_LANES == 1
-#define OUTLINES_LANE(member, k) (member)
-#else
-#define OUTLINES_LANE(member, k) (member)[k]
-#endif
-
-/// NULL: nothing.
-SCREE_INLINE void outlines_share_put(outlines_share *share, int k, const scree_overlap *overlap)
-{
-    static const scree_overlap none;
-    const scree_overlap *o = overlap ? overlap : &none;
-    (void)k;
-    OUTLINES_LANE(share->meet, k) = -(uint64_t)(overlap != NULL);
-    OUTLINES_LANE(share->twice, k) = -(uint64_t)(o->crossings == 2);
-    OUTLINES_LANE(share->useless, k) = -(uint64_t)(o->flags != 0);
-    OUTLINES_LANE(share->area, k) = o->area;
-    for (int i = 0; i < 2; i++) {
-        OUTLINES_LANE(share->chord[i], k) = o->chord[i];
-        for (int b = 0; b < 2; b++) {
-            OUTLINES_LANE(share->arm[b][i], k) = o->arm[b][i];
-            for (int e = 0; e < 2; e++) OUTLINES_LANE(share->edge[e][b][i], k) = o->edge[e][b][i];
-        }
-    }
-}
-
-/// A lane without a pair.
-SCREE_INLINE void outlines_share_nothing(outlines_share *share, int k)
-{
-    (void)k;
-    outlines_share_put(share, k, NULL);
-    for (int b = 0; b < 2; b++) OUTLINES_LANE(share->radius[b], k) = OUTLINES_LANE(share->turning[b], k) = 1;
 }
 
 /// False: the outlines do not meet.
@@ -106,21 +58,19 @@ SCREE_INLINE bool outlines_meet(const scree_polygon polygon[2], const double apa
     return true;
 }
 
-/// Finds what the bodies in two rows share, into lane `k`; false: nothing. apart: from the first centre to the second.
-SCREE_INLINE bool outlines_find(const scree_state *state, const scree_polygons *polygons, const uint32_t row[2],
-                                const double apart[2], int8_t *hint, int k, outlines_share *share)
+/// Finds what the bodies in two rows share, into lane `k`. apart: from the first centre to the second.
+SCREE_INLINE void outlines_find(const scree_state *state, const scree_polygons *polygons, const uint32_t row[2],
+                                const double apart[2], int k, outlines_share *share)
 {
     const scree_polygon polygon[2] = {scree_polygon_of_row(state, polygons, row[0]),
                                       scree_polygon_of_row(state, polygons, row[1])};
     scree_overlap overlap;
+    int8_t hint = 0;
     (void)k;
-    for (int b = 0; b < 2; b++) {
-        OUTLINES_LANE(share->radius[b], k) = polygon[b].radius;
-        OUTLINES_LANE(share->turning[b], k) = state->form ? state->form[row[b]].turning : polygon[b].bound;
-    }
-    const bool meet = outlines_meet(polygon, apart, hint, &overlap);
-    outlines_share_put(share, k, meet ? &overlap : NULL);
-    return meet;
+    for (int b = 0; b < 2; b++)
+        outlines_share_body(share, k, b, polygon[b].radius,
+                            state->form ? state->form[row[b]].turning : polygon[b].bound);
+    outlines_share_put(share, k, outlines_meet(polygon, apart, &hint, &overlap) ? &overlap : NULL);
 }
 
 // ---- the motion ----------------------------------------------------------------------------------------------------
@@ -212,9 +162,15 @@ SCREE_INLINE lanes outlines_turning(const bodies *body, lanes turning, const lan
 /// Where nothing is shared there are no rates.
 SCREE_INLINE void outlines_keep(kinematics *m, lanes_bits meet)
 {
-    lanes *const rate[] = {&m->arm_first, &m->arm_second,       &m->approach,       &m->slip.x,        &m->roll.x,
-                           &m->tilted.x,  &m->dashpot_approach, &m->dashpot_slip.x, &m->dashpot_roll.x};
-    for (size_t k = 0; k < sizeof rate / sizeof *rate; k++) *rate[k] = lanes_keep(meet, *rate[k]);
+    m->arm_first = lanes_keep(meet, m->arm_first);
+    m->arm_second = lanes_keep(meet, m->arm_second);
+    m->approach = lanes_keep(meet, m->approach);
+    m->slip.x = lanes_keep(meet, m->slip.x);
+    m->roll.x = lanes_keep(meet, m->roll.x);
+    m->tilted.x = lanes_keep(meet, m->tilted.x);
+    m->dashpot_approach = lanes_keep(meet, m->dashpot_approach);
+    m->dashpot_slip.x = lanes_keep(meet, m->dashpot_slip.x);
+    m->dashpot_roll.x = lanes_keep(meet, m->dashpot_roll.x);
 }
 
 SCREE_INLINE kinematics outlines_motion(int dimension, const outlines_share *share, const bodies *first,
@@ -244,10 +200,13 @@ SCREE_INLINE lanes outlines_reach(const bodies *body)
 
 #if SCREE_LANES > 1
 
-/// What they share has been found.
+/// What they share has been found, or where they cross.
 SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, const bodies *second, double step)
 {
-    return outlines_motion(dimension, first->share, first, second, step);
+    const lanes apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
+    const lanes bound[2] = {first->radius, second->radius};
+    const outlines_share share = outlines_work_out(first->found, apart, bound);
+    return outlines_motion(dimension, &share, first, second, step);
 }
 
 #else
@@ -257,7 +216,7 @@ SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, 
     const double apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
     const uint32_t row[2] = {(uint32_t)first->row, (uint32_t)second->row};
     outlines_share share;
-    (void)outlines_find(first->state, scree_polygons_of(first->state), row, apart, first->hint, 0, &share);
+    outlines_find(first->state, scree_polygons_of(first->state), row, apart, 0, &share);
     return outlines_motion(dimension, &share, first, second, step);
 }
 

@@ -42,7 +42,6 @@ SCREE_INLINE void evaluate_pair(contact_job *job, variant v, size_t p)
     bool touching = law_holds(v) ||
                     (geometry_is_coarse(v) ? geometry_touches(v, &one, &other) != 0 : pair_touches(v, &one, &other));
     if (!touching && memory_is_clear(&rows)) return;
-    one.hint = job->hint ? &job->hint[p] : NULL;
     kinematics m = geometry_kinematics(v, &one, &other, job->settings.step);
     kinematics_lead(v, &m, &one, &other);
     if (geometry_is_coarse(v) && !(touching = touching && expanded_touch(&m)) && memory_is_clear(&rows)) return;

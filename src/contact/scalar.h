@@ -47,11 +47,11 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
 SCREE_INLINE void kinematics_lead(variant v, kinematics *m, const bodies *first, const bodies *second)
 {
     if (!first->lead) return;
-    const bodies one = bodies_at_end(v.dimension, first, prediction_get(v.dimension, first->lead));
+    const motion_at_n one = motion_at_end(v.dimension, first, prediction_get(v.dimension, first->lead));
     if (!second) {
         kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, NULL);
     } else {
-        const bodies other = bodies_at_end(v.dimension, second, prediction_get(v.dimension, second->lead));
+        const motion_at_n other = motion_at_end(v.dimension, second, prediction_get(v.dimension, second->lead));
         kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
     }
     if (geometry_has_gains(v)) kinematics_gain_at_end(v.dimension, m);

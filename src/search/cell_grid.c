@@ -57,8 +57,7 @@ static int level_of(const scree_cell_grid *grid, double radius)
 
 static void destroy_bodies(scree_cell_grid *grid)
 {
-    void *const arrays[] = {&grid->body_level, &grid->order,  &grid->x,   &grid->y,
-                            &grid->z,          &grid->radius, &grid->row, &grid->id};
+    void *const arrays[] = {&grid->body_level, &grid->x, &grid->y, &grid->z, &grid->radius, &grid->row, &grid->id};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     grid->body_capacity = 0;
 }
@@ -69,7 +68,6 @@ static scree_status reserve_bodies(scree_cell_grid *grid, size_t count, scree_er
     size_t capacity = count + count / 8 + 64, slots = capacity + SCREE_SLOT_PADDING;
     destroy_bodies(grid);
     scree_status status = scree_allocate(&grid->body_level, capacity, sizeof *grid->body_level, error);
-    if (!status) status = scree_allocate(&grid->order, capacity, sizeof *grid->order, error);
     if (!status) status = scree_allocate(&grid->x, slots, sizeof *grid->x, error);
     if (!status) status = scree_allocate(&grid->y, slots, sizeof *grid->y, error);
     if (!status && grid->dimension == 3) status = scree_allocate(&grid->z, slots, sizeof *grid->z, error);
@@ -129,7 +127,7 @@ scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *sta
     }
     scree_key_list_sort(&grid->curve, state->count);
     order_cells(state, &grid->curve, state->count);
-    if (state->count > 0) memcpy(grid->order, grid->curve.index, state->count * sizeof *grid->order);
+    grid->order = grid->curve.index;
     return SCREE_OK;
 }
 

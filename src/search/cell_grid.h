@@ -51,7 +51,7 @@ typedef struct scree_cell_grid {
     // bodies in curve order (rows)
     scree_key_list curve; ///< key of the finest cell and id
     uint8_t *body_level;
-    uint32_t *order;
+    uint32_t *order; ///< those of the curve, until the next time
     // cells, level by level, along the curve
     uint32_t *cell_row;      ///< first row in the cell of a body of this level or one below
     scree_slot_range *range; ///< SCREE_CELL_ROWS of each cell; in the lowest level without cells before it on the curve

@@ -164,7 +164,7 @@ static scree_status reserve_list(const list_arrays *list, size_t count, bool wor
     laws = laws && list->law;
     bool complete = (!works || *list->last_force) && (!rolls || *list->rolling) && (!laws || *list->law);
     if (complete && count + SCREE_PAIR_PADDING <= *list->capacity) return SCREE_OK;
-    size_t room = count + count / 8 + 4 * SCREE_PAIR_PADDING;
+    size_t room = count + count / 16 + 4 * SCREE_PAIR_PADDING;
     release_list(list);
     scree_status status = scree_allocate(list->one, room, sizeof **list->one, error);
     if (!status) status = scree_allocate(list->other, room, sizeof **list->other, error);

@@ -199,7 +199,7 @@ CORE scree_status search_rows(const scree_cell_grid *grid, const scree_state *st
             const scree_slot_range *range = &grid->range[(level->first_cell + cell[m]) * ranges];
             size_t candidates = 0;
             for (size_t d = 0; d < ranges; d++) candidates += range[d].end - range[d].begin;
-            status = reserve(&chunk->touching, candidates, 2 * (end - begin), error);
+            status = reserve(&chunk->touching, candidates, end - begin, error);
             if (!status) status = reserve(&chunk->near, candidates, (end - begin) / 2, error);
             if (status) break;
             search_cells(grid, body, range, chunk, dimension);

@@ -32,8 +32,7 @@ static bool lies_inside(const scree_polygon_pair *pair, int inner)
     return true;
 }
 
-/// Distance of the other body from an edge's line, negative where it reaches behind it [m].
-static double gap_of_edge(const scree_polygon_pair *pair, int body, int edge)
+double scree_polygon_gap(const scree_polygon_pair *pair, int body, int edge)
 {
     const double *a = pair->corner[body][edge];
     const double *b = pair->corner[body][scree_next_corner(pair->count[body], edge)];
@@ -51,7 +50,7 @@ static int find_separating_edge(const scree_polygon_pair *pair)
     int found = 0;
     for (int body = 0; body < 2; body++)
         for (int k = 0; k < pair->count[body]; k++) {
-            double gap = gap_of_edge(pair, body, k);
+            double gap = scree_polygon_gap(pair, body, k);
             if (!(gap > widest) || !scree_edge_separates(pair, body, k)) continue;
             widest = gap;
             found = body == 0 ? k + 1 : -(k + 1);

@@ -29,6 +29,9 @@
 /// certain.
 bool scree_polygon_uncrossed(const scree_polygon_pair *pair, const double apart[2], int *hint, scree_overlap *overlap);
 
+/// Distance of the other body from the line of an edge, negative where it reaches behind it [m].
+double scree_polygon_gap(const scree_polygon_pair *pair, int body, int edge);
+
 /// Order of two polygons whose centres lie in one place: negative if the first comes first, 0 if they are the same.
 int scree_polygon_compare(const scree_polygon *first, const scree_polygon *second);
 

@@ -5,6 +5,7 @@
 #include "base/reduction.h"
 #include "base/thread_pool_size.h"
 #include "state/body.h"
+#include "state/pair_hint.h"
 
 /// Flags that kernels and integrators raise; the guard looks once a step.
 enum {
@@ -35,7 +36,7 @@ typedef struct scree_pair_list {
     scree_last_force *last_force; ///< with scree_contacts_add_work: one a pair; else NULL
     scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
     double reach;                 ///< m, beyond which no neck of a law with the trait `necks` reaches; 0: none is
-    int8_t *hint;                 ///< with laws of areas: what the geometry keeps of a pair, with no effect; else NULL
+    scree_pair_hint *hint;        ///< with laws of areas, with no effect; else NULL
     size_t count, capacity;
     scree_pair_section section[SCREE_PAIR_SECTIONS];
     int section_count;

@@ -1,0 +1,73 @@
+/// What two outlines share (shape/overlap.h), in lanes or of one pair.
+#ifndef SCREE_CONTACT_OUTLINES_SHARE_H
+#define SCREE_CONTACT_OUTLINES_SHARE_H
+
+#include "contact/lanes.h"
+#include "shape/overlap.h"
+
+/// It, and what the geometry reads of the two bodies beside their rows. All zero where the outlines do not meet, but
+/// for what is of the bodies.
+typedef struct outlines_share {
+    lanes_bits meet;     ///< masks: the outlines meet;
+    lanes_bits twice;    ///< they cross twice;
+    lanes_bits useless;  ///< no law can use it (flags)
+    lanes area;          ///< m2
+    lanes chord[2];      ///< m
+    lanes arm[2][2];     ///< m
+    lanes edge[2][2][2]; ///< m
+    lanes radius[2];     ///< m, of the discs of equal area
+    lanes turning[2];    ///< m, what inertia is of (state->form)
+} outlines_share;
+
+#if SCREE_LANES == 1
+#define OUTLINES_LANE(member, k) (member)
+#else
+#define OUTLINES_LANE(member, k) (member)[k]
+#endif
+
+/// NULL: nothing.
+SCREE_INLINE void outlines_share_put(outlines_share *share, int k, const scree_overlap *overlap)
+{
+    static const scree_overlap none;
+    const scree_overlap *o = overlap ? overlap : &none;
+    (void)k;
+    OUTLINES_LANE(share->meet, k) = -(uint64_t)(overlap != NULL);
+    OUTLINES_LANE(share->twice, k) = -(uint64_t)(o->crossings == 2);
+    OUTLINES_LANE(share->useless, k) = -(uint64_t)(o->flags != 0);
+    OUTLINES_LANE(share->area, k) = o->area;
+    for (int i = 0; i < 2; i++) {
+        OUTLINES_LANE(share->chord[i], k) = o->chord[i];
+        for (int b = 0; b < 2; b++) {
+            OUTLINES_LANE(share->arm[b][i], k) = o->arm[b][i];
+            for (int e = 0; e < 2; e++) OUTLINES_LANE(share->edge[e][b][i], k) = o->edge[e][b][i];
+        }
+    }
+}
+
+/// What is of one of the bodies.
+SCREE_INLINE void outlines_share_body(outlines_share *share, int k, int body, double radius, double turning)
+{
+    (void)k;
+    OUTLINES_LANE(share->radius[body], k) = radius;
+    OUTLINES_LANE(share->turning[body], k) = turning;
+}
+
+/// `a` where the mask is set, `b` elsewhere; what is of the bodies is that of b.
+SCREE_INLINE outlines_share outlines_share_select(lanes_bits mask, const outlines_share *a, const outlines_share *b)
+{
+    outlines_share s = *b;
+    s.meet = (mask & a->meet) | (~mask & b->meet);
+    s.twice = (mask & a->twice) | (~mask & b->twice);
+    s.useless = (mask & a->useless) | (~mask & b->useless);
+    s.area = lanes_select(mask, a->area, b->area);
+    for (int i = 0; i < 2; i++) {
+        s.chord[i] = lanes_select(mask, a->chord[i], b->chord[i]);
+        for (int k = 0; k < 2; k++) {
+            s.arm[k][i] = lanes_select(mask, a->arm[k][i], b->arm[k][i]);
+            for (int e = 0; e < 2; e++) s.edge[e][k][i] = lanes_select(mask, a->edge[e][k][i], b->edge[e][k][i]);
+        }
+    }
+    return s;
+}
+
+#endif
