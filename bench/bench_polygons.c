@@ -1,11 +1,12 @@
-/// Nanoseconds of scree_polygon_pair_overlap a pair: polygons with 6 to 24 corners (in sectors of a circle, equal area, any
-/// angle) that touch at a depth of 0.002 radii, and that are 0.01 radii apart, with the edge remembered and without.
-/// So many pairs that no processor learns by heart how each of them branches, as in a run; one thread. bench_polygons_v3
-/// and _v4 have corners in lanes (shape/corner_lanes.h), as runs do where the processor has such instructions.
+/// Nanoseconds of scree_polygon_pair_overlap a pair: polygons with 6 to 24 corners (in sectors of a circle, equal area,
+/// any angle) that touch at a depth of 0.002 radii, and that are 0.01 radii apart, with the edge remembered and
+/// without. So many pairs that no processor learns by heart how each of them branches, as in a run; one thread. Then
+/// what it takes to look at a pair that touches and to keep where it crosses (shape/polygon_hint.h), as runs do of
+/// pairs that have moved.
 #include "bench.h"
 
-#include "base/processor.h"
 #include "base/random.h"
+#include "shape/polygon_hint.h"
 #include "shape/polygon_make.h"
 #include "shape/polygon_pair.h"
 
@@ -73,27 +74,38 @@ static double measure(bool forget, int *met)
     return 1e9 * best / ROUNDS / PAIRS;
 }
 
-/// The level of the processor that this file is compiled for; 0: any.
-#ifndef MEASURED_LEVEL
-#define MEASURED_LEVEL 0
-#endif
+/// Nanoseconds of a look that renews a hint.
+static double measure_hints(void)
+{
+    static scree_pair_hint hint[PAIRS];
+    double best = INFINITY;
+    for (int run = 0; run < 5; run++) {
+        const double start = seconds(1);
+        for (int round = 0; round < ROUNDS; round++)
+            for (int k = 0; k < PAIRS; k++) {
+                const pair *p = &pairs[k];
+                const scree_polygon_pose pose = {.polygon = {&p->polygon[0], &p->polygon[1]},
+                                                 .apart = {p->apart[0], p->apart[1]}};
+                (void)scree_pair_hint_renew(&pose, &hint[k]);
+            }
+        best = fmin(best, seconds(1) - start);
+    }
+    return 1e9 * best / ROUNDS / PAIRS;
+}
 
 int main(void)
 {
-    if (scree_processor_best() < MEASURED_LEVEL) {
-        (void)printf("this processor has no instructions of level %d\n", MEASURED_LEVEL);
-        return 0;
-    }
     static const int corners[] = {6, 7, 8, 12, 24};
     for (size_t c = 0; c < sizeof corners / sizeof *corners; c++) {
         int met[3];
         for (uint64_t id = 0; id < PAIRS; id++) make(id, corners[c], -0.002);
-        double touching = measure(false, &met[0]);
+        double touching = measure(false, &met[0]), kept = measure_hints();
         for (uint64_t id = 0; id < PAIRS; id++) make(id, corners[c], 0.01);
         double anew = measure(true, &met[1]), remembered = measure(false, &met[2]);
-        (void)printf(
-            "%2d corners: touching %5.1f ns (%d of %d), apart %5.1f ns, with the edge remembered %5.1f ns (%d)\n",
-            corners[c], touching, met[0], PAIRS, anew, remembered, met[1] + met[2]);
+        (void)printf("%2d corners: touching %5.1f ns (%d of %d), to keep where %5.1f ns, apart %5.1f ns, with the edge "
+                     "remembered "
+                     "%5.1f ns (%d)\n",
+                     corners[c], touching, met[0], PAIRS, kept, anew, remembered, met[1] + met[2]);
     }
     return 0;
 }

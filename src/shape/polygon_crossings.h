@@ -1,10 +1,9 @@
 /// Which edges of two convex polygons cross, and what tells beforehand that none does: the decisions of
-/// shape/polygon_pair.h, one corner after the other, or eight at once (polygon_crossings_lanes.h) where the file that
-/// includes this is compiled for it. Both decide alike, so the overlap has the same bits.
+/// shape/polygon_pair.h.
 #ifndef SCREE_SHAPE_POLYGON_CROSSINGS_H
 #define SCREE_SHAPE_POLYGON_CROSSINGS_H
 
-#include "shape/corner_lanes.h"
+#include "base/inline.h"
 #include "shape/polygon.h"
 #include "shape/side.h"
 

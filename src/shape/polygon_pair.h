@@ -13,8 +13,8 @@
 /// Method: bounding circles; the edge that separated the pair when it was last looked at (`hint`, which can only
 /// reject, and only for certain); projections on the line of the centres, which leave the few edges of either that can
 /// cross; of these, corners against edges. Cost: linear in the corners, plus (edges that are left)^2, which for grains
-/// that touch are 2 to 4 of each, whatever the number of corners. Up to eight corners of a body are looked at together
-/// where the processor can (polygon_crossings_lanes.h): the same decisions.
+/// that touch are 2 to 4 of each, whatever the number of corners. Of pairs that move little runs know from earlier steps
+/// which edges cross (polygon_hint.h).
 ///
 /// Limits: shape/side.h, with R the bounding radius and a distance in place of coordinates.
 #ifndef SCREE_SHAPE_POLYGON_PAIR_H
@@ -22,7 +22,6 @@
 
 #include "shape/overlap.h"
 #include "shape/polygon_crossings.h"
-#include "shape/polygon_crossings_lanes.h"
 
 /// Polygons without crossings: whether one lies inside the other (then area, flags and arm[0] are set). If not, a
 /// separating edge, the one with the widest gap: edge + 1 of the first, -(edge + 1) of the second, 0 if none is for
@@ -130,10 +129,9 @@ SCREE_INLINE bool scree_polygon_pair_overlap(const scree_polygon *first, const s
                                      {body[0]->bound, body[1]->bound}};
     int edge = later ? -*hint : *hint;
     scree_crossings crossings;
-    const bool near = scree_lanes_few(&pair)
-                          ? scree_pair_look(true, &pair, body[1]->corner, way, edge, shifted, &crossings)
-                          : scree_pair_look(false, &pair, body[1]->corner, way, edge, shifted, &crossings);
-    if (!near) return false;
+    for (int k = 0; k < body[1]->count; k++)
+        for (int i = 0; i < 2; i++) shifted[k][i] = body[1]->corner[k][i] + way[i];
+    if (!scree_polygon_look(&pair, way, edge, &crossings)) return false;
     overlap->flags = 0;
     if (__builtin_popcount(crossings.entering) != __builtin_popcount(crossings.leaving)) crossings.entering = 0;
     if (crossings.entering == 0) {

@@ -1,6 +1,5 @@
 /// Overlaps of polygons with polygons: closed forms, exact areas, chord and line against differences of the area, the
 /// way through degenerate poses, flags.
-#include "base/processor.h"
 #include "contact/outlines.h"
 #include "polygon_pairs.h"
 #include "testing.h"
@@ -407,120 +406,8 @@ static void test_hint(void **state)
     assert_int_equal(hint, 0);
 }
 
-#if SCREE_CORNER_LANES > 0
-
-// ---- in lanes -----------------------------------------------------------------------------------------------------
-
-/// Both ways of deciding, on corners that lie as scree_polygon_pair_overlap shifts them. Returns whether lanes do all.
-static bool decide(const pair_sample *s, int edge, double shifted[][2], scree_crossings answer[2], bool look[2])
-{
-    const scree_polygon *one = &s->polygon[0], *other = &s->polygon[1];
-    const scree_polygon_pair pair = {
-        {one->count, other->count}, {one->corner, (const double(*)[2])shifted}, {one->bound, other->bound}};
-    const bool few = scree_lanes_few(&pair);
-    scree_pair_lanes both;
-    scree_pair_lanes_load(few, &pair, other->corner, s->apart, shifted, &both);
-    for (int k = 0; k < other->count; k++)
-        for (int i = 0; i < 2; i++)
-            if (shifted[k][i] != other->corner[k][i] + s->apart[i]) fail_msg("corner %d", k);
-    memset(answer, 0, 2 * sizeof *answer);
-    look[0] = scree_polygon_look(&pair, s->apart, edge, &answer[0]);
-    look[1] = scree_lanes_look(few, &pair, &both, s->apart, edge, &answer[1]);
-    return few;
-}
-
-/// The same crossings; what lies apart may be seen to by a projection, or by having none.
-static bool alike(const scree_crossings answer[2], const bool look[2])
-{
-    const scree_crossings *a = &answer[0], *b = &answer[1];
-    if (!look[0] || !look[1]) return (!look[0] || !a->entering) && (!look[1] || !b->entering);
-    bool same = a->entering == b->entering && a->leaving == b->leaving;
-    for (int k = 0; k < SCREE_POLYGON_CORNERS && same; k++)
-        same = (!(a->entering >> k & 1) || a->in[k] == b->in[k]) && (!(a->leaving >> k & 1) || a->out[k] == b->out[k]);
-    return same;
-}
-
-static void test_lanes(void **state)
-{
-    (void)state;
-    uint64_t few = 0, crossing = 0, apart = 0, by_edge = 0;
-    for (uint64_t id = 0; id < 200000; id++) {
-        pair_sample sample;
-        scree_crossings answer[2];
-        double shifted[SCREE_POLYGON_CORNERS][2];
-        bool look[2], known[2];
-        pair_make(id, &sample);
-        few += decide(&sample, 0, shifted, answer, look);
-        if (!alike(answer, look)) fail_msg("pair %d (%s)", (int)id, pair_names[sample.kind]);
-        crossing += look[1] && answer[1].entering;
-        apart += !look[1];
-        // With any edge in mind: it tells the same to both.
-        const int first = (int)(id % (uint64_t)sample.polygon[0].count) + 1;
-        const int second = -(int)(id % (uint64_t)sample.polygon[1].count) - 1;
-        for (int k = 0; k < 2; k++) {
-            (void)decide(&sample, k == 0 ? first : second, shifted, answer, known);
-            if (!alike(answer, known)) fail_msg("pair %d (%s), an edge in mind", (int)id, pair_names[sample.kind]);
-            by_edge += look[1] && !known[1];
-        }
-    }
-    assert_true(few > 50000 && few < 150000 && crossing > 20000 && apart > 1000 && by_edge > 1000);
-}
-
-/// Places and corners that are not a number are left to the arithmetic of one corner after the other.
-static void test_lanes_without_numbers(void **state)
-{
-    (void)state;
-    for (int which = 0; which < 3; which++) {
-        pair_sample sample;
-        scree_crossings answer[2];
-        double shifted[SCREE_POLYGON_CORNERS][2];
-        pair_make(0, &sample);
-        for (int b = 0; b < 2; b++) {
-            memcpy(sample.corner[b], square, sizeof square);
-            sample.polygon[b] = polygon_of(4, (const double(*)[2])sample.corner[b]);
-        }
-        for (int i = 0; i < 2; i++) sample.apart[i] = which == 0 ? NAN : 1.5;
-        for (int k = 0; k < 4 && which > 0; k++)
-            for (int i = 0; i < 2; i++) sample.corner[which - 1][k][i] = NAN;
-        const scree_polygon *p = sample.polygon;
-        const scree_polygon_pair pair = {{4, 4}, {p[0].corner, (const double(*)[2])shifted}, {p[0].bound, p[1].bound}};
-        scree_pair_lanes both;
-        scree_pair_lanes_load(true, &pair, p[1].corner, sample.apart, shifted, &both);
-        for (int edge = -4; edge <= 4; edge++) {
-            assert_true(scree_polygon_look(&pair, sample.apart, edge, &answer[0]));
-            assert_true(scree_lanes_look(true, &pair, &both, sample.apart, edge, &answer[1]));
-            assert_int_equal(answer[0].entering | answer[0].leaving | answer[1].entering | answer[1].leaving, 0);
-        }
-    }
-}
-
-/// A table turned about its diagonal, bit by bit.
-static void test_transposed(void **state)
-{
-    (void)state;
-    for (uint64_t id = 0; id < 1000; id++) {
-        uint32_t words[4];
-        scree_random_words(5, SCREE_RANDOM_TEST, id, words);
-        const uint64_t bits = (uint64_t)words[0] << 32 | words[1], turned = corner_bits_transposed(bits);
-        for (int i = 0; i < 8; i++)
-            for (int j = 0; j < 8; j++) assert_int_equal(bits >> (8 * j + i) & 1, turned >> (8 * i + j) & 1);
-    }
-}
-
-#define LANES                                                                                                          \
-    cmocka_unit_test(test_lanes), cmocka_unit_test(test_lanes_without_numbers), cmocka_unit_test(test_transposed),
-#else
-#define LANES
-#endif
-
-/// The level of the processor that this file is compiled for; 0: any.
-#ifndef TESTED_LEVEL
-#define TESTED_LEVEL 0
-#endif
-
 int main(void)
 {
-    if (scree_processor_best() < TESTED_LEVEL) return 77;
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_rectangles),
                                        cmocka_unit_test(test_corner_in_edge),
                                        cmocka_unit_test(test_crossed_bars),
@@ -530,7 +417,6 @@ int main(void)
                                        cmocka_unit_test(test_continuity),
                                        cmocka_unit_test(test_jumps),
                                        cmocka_unit_test(test_flags),
-                                       cmocka_unit_test(test_hint),
-                                       LANES};
+                                       cmocka_unit_test(test_hint)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
