@@ -82,6 +82,12 @@ static char *beginning(const scree_statement *s, bool first)
     return NULL;
 }
 
+/// As put_value writes it.
+static bool has_interval(const char *cells, size_t count)
+{
+    return memchr(cells, '[', strcspn(cells, "|")) || (strncmp(cells, "in ", 3) == 0 && count > 1);
+}
+
 /// Reads the cells from our value on, which end before the end of the line.
 static bool read_cells(const char *cells, scree_page_rows *rows, bool *counted)
 {
@@ -96,6 +102,7 @@ static bool read_cells(const char *cells, scree_page_rows *rows, bool *counted)
         const size_t length = strlen(verdict_names[v]);
         if (strncmp(verdict + 2, verdict_names[v], length) != 0 || strcmp(verdict + 2 + length, "** ") != 0) continue;
         rows->verdict = (scree_verdict)v;
+        rows->intervals = has_interval(cells, count);
         *counted = true;
     }
     return true;

@@ -16,6 +16,7 @@ void scree_page_row_write(FILE *file, const scree_statement *s, const scree_answ
 /// What the rows of a statement say.
 typedef struct scree_page_rows {
     scree_verdict verdict; ///< the one that counts
+    size_t intervals;      ///< 1 if it rests on an interval
     size_t full, others;   ///< realisations of the full form, and of others
     size_t planned;        ///< realisations that were asked for, with a value or not
 } scree_page_rows;

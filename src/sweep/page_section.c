@@ -35,6 +35,7 @@ static bool weigh(const scree_page_section *section, const scree_statement_group
     for (int64_t k = 0; k < group->statement_count; k++) {
         scree_page_rows rows;
         if (!scree_page_row_read(section->text, section->length, &group->statements[k], &rows)) return false;
+        sum->intervals += rows.intervals;
         sum->full += rows.full;
         sum->others += rows.others;
         sum->planned += rows.planned;
@@ -42,8 +43,10 @@ static bool weigh(const scree_page_section *section, const scree_statement_group
     return true;
 }
 
+/// One run of the full form says less than several of another, which give an interval.
 static bool weigh_more(const scree_page_rows *mine, const scree_page_rows *theirs)
 {
+    if (mine->intervals != theirs->intervals) return mine->intervals > theirs->intervals;
     if (mine->full != theirs->full) return mine->full > theirs->full;
     if (mine->others != theirs->others) return mine->others > theirs->others;
     return mine->planned > theirs->planned;

@@ -16,9 +16,9 @@ typedef struct scree_page_section {
 /// The section of a case below the heading of its source. `page`: NULL for none.
 scree_page_section scree_page_section_find(const char *page, const char *source, const char *name);
 
-/// Whether all statements of the case stand there word for word, and rest on more realisations than in `other`: those
-/// of the full form come first, then the others, then those without a value. What
-/// rests on nothing at all outweighs nothing.
+/// Whether all statements of the case stand there word for word, and rest on more than in `other`: verdicts with an
+/// interval come first, then realisations of the full form, then the others, then those without a value. What rests on
+/// nothing at all outweighs nothing.
 bool scree_page_section_outweighs(const scree_page_section *section, const scree_page_section *other,
                                   const scree_statement_group *group);
 

@@ -174,14 +174,14 @@ static scree_status write_group(const page *p, const scree_statement_group *grou
     return status;
 }
 
-static bool some_rows_stay(const scree_page_section *former, const scree_page_section *section,
-                           const scree_statement_group *group)
+static bool outweighs_in_some(const scree_page_section *section, const scree_page_section *other,
+                              const scree_statement_group *group)
 {
     scree_page_rows rows;
-    bool stay = false;
-    for (int64_t k = 0; k < group->statement_count && !stay; k++)
-        stay = scree_page_section_outweighs_in(former, section, &group->statements[k], &rows);
-    return stay;
+    bool some = false;
+    for (int64_t k = 0; k < group->statement_count && !some; k++)
+        some = scree_page_section_outweighs_in(section, other, &group->statements[k], &rows);
+    return some;
 }
 
 static scree_status put_group(page *p, const scree_statement_group *group)
@@ -191,9 +191,10 @@ static scree_status put_group(page *p, const scree_statement_group *group)
     scree_page_section section;
     char *text = NULL;
     scree_status status = write_group(p, group, (scree_page_section){0}, &section, &text);
-    const bool stays = !status && scree_page_section_outweighs(&former, &section, group);
+    const bool stays = !status && scree_page_section_outweighs(&former, &section, group) &&
+                       !outweighs_in_some(&section, &former, group);
     if (stays) section = former;
-    if (!status && !stays && some_rows_stay(&former, &section, group)) {
+    if (!status && !stays && outweighs_in_some(&former, &section, group)) {
         free(text);
         text = NULL;
         status = write_group(p, group, former, &section, &text);

@@ -109,6 +109,12 @@ expect 0 '' "$scree" report runs/one --statements mine.yaml -o page.md
 row large | head -1 | grep -qF '| 2 | 1 of 1 | (undecided) | full |' || complain "one full run: $(row large)"
 row large | tail -1 | grep -qF '| 1.05 [0.4147, 1.685] | 2 of 2 | **undecided** | quick |' || complain "two quick runs: $(row large)"
 row more | grep -qF '| 2 | 1 of 1 | **undecided** | full |' || complain "one run of the only form: $(row more)"
+# Nor does it take the place of quick runs whose folders are gone.
+rm page.md
+expect 0 '' "$scree" report runs/quick --statements mine.yaml -o page.md
+expect 0 '' "$scree" report runs/one/full --statements mine.yaml -o page.md
+row large | grep -qF '| 1.05 [0.4147, 1.685] | 2 of 2 | **undecided** | quick |' || complain "one full run in place of two quick ones: $(row large)"
+row more | grep -qF '| 2 | 1 of 1 | **undecided** | full |' || complain "one run of the only form, beside rows that stay: $(row more)"
 rm -r runs/one
 # Several sources; what is built in stays as it is.
 expect 0 '' "$scree" report runs -s mine.yaml --statements padbidri2010 -o page.md
