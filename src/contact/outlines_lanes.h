@@ -174,6 +174,7 @@ SCREE_INLINE void exchange_share(lanes_bits mask, outlines_share *s)
 /// Two crossings are worked out and put to the rest. apart: from the first centre to the second; given: bounding radii.
 SCREE_INLINE outlines_share outlines_work_out(const outlines_found *f, const lanes apart[2], const lanes given[2])
 {
+    if (!lanes_ones(f->twice)) return f->share; // among discs alone there are no corners
     const lanes_bits later = lanes_below(apart[0], lanes_all(0)) |
                              (~lanes_differ(apart[0], lanes_all(0)) & lanes_below(apart[1], lanes_all(0)));
     lanes way[2], radius[2] = {f->share.radius[0], f->share.radius[1]}, bound[2] = {given[0], given[1]};

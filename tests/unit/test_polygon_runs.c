@@ -398,6 +398,20 @@ static void discs_run_among_them(void **unused)
     assert_true(first < 1e-4 && second < first / 2.5);
 }
 
+/// All of them are: there are no corners then.
+static void discs_run_alone(void **unused)
+{
+    (void)unused;
+#define DISCS "particles={shape: disc, material: stone, thickness: 1 m, count: 24, distribution: equal, radius: 2.5 mm}"
+    const char *const potential[] = {DISCS, LOSSLESS, "contact.law=polygon_potential", "integrator.step=2.5e-6 s"};
+    const char *const fine[] = {DISCS, LOSSLESS, "contact.law=polygon_potential", "integrator.step=1.25e-6 s"};
+    double share;
+    const double first = residual_of(gas_text, potential, COUNT_OF(potential), &share),
+                 second = residual_of(gas_text, fine, COUNT_OF(fine), &share);
+    print_message("residual %.3g, with half of the step %.3g\n", first, second);
+    assert_true(first < 1e-4 && second < first / 2.5);
+}
+
 /// Outlines that are given, in the case or in a file with its columns in any order, have its angles and the area of the
 /// disc of the drawn radius, with the centroid in the middle, whatever the unit.
 static void outlines_are_given(void **unused)
@@ -498,6 +512,7 @@ int main(void)
         cmocka_unit_test(only_one_law_has_a_potential),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(discs_run_among_them),
+        cmocka_unit_test(discs_run_alone),
         cmocka_unit_test(outlines_are_given),
         cmocka_unit_test(what_does_not_go_together_is_refused),
     };
