@@ -103,8 +103,7 @@ int main(void)
         for (uint64_t id = 0; id < PAIRS; id++) make(id, corners[c], 0.01);
         double anew = measure(true, &met[1]), remembered = measure(false, &met[2]);
         (void)printf("%2d corners: touching %5.1f ns (%d of %d), to keep where %5.1f ns, apart %5.1f ns, with the edge "
-                     "remembered "
-                     "%5.1f ns (%d)\n",
+                     "remembered %5.1f ns (%d)\n",
                      corners[c], touching, met[0], PAIRS, kept, anew, remembered, met[1] + met[2]);
     }
     return 0;

@@ -138,9 +138,9 @@ typedef struct scree_report_options {
 /// Compares what sources state with the results of runs and sweeps, and writes the page as Markdown. Statements whose
 /// runs are not there are `not run`, those whose results a run does not have `not measured`. A case whose section on
 /// the former page says the same statements word for word, and rests on more (verdicts with an interval; if as many,
-/// realisations of the full form; if as many, of the others), keeps that section, with the figures that it names: the page may outlive the runs. Errors:
-/// SCREE_ERROR_INPUT with everything that is wrong with the statements in *problems (may be NULL; to be freed);
-/// SCREE_ERROR_IO.
+/// realisations of the full form; if as many, of the others), keeps that section, with the figures that it names: the
+/// page may outlive the runs. Errors: SCREE_ERROR_INPUT with everything that is wrong with the statements in *problems
+/// (may be NULL; to be freed); SCREE_ERROR_IO.
 SCREE_API scree_status scree_report_write(const scree_report_options *options, FILE *file, scree_problems **problems,
                                           scree_error *error);
 

@@ -14,8 +14,7 @@ typedef struct waiting {
     int count;
 } waiting;
 
-// ---- what is known
-// ---------------------------------------------------------------------------------------------------
+// ---- what is known -------------------------------------------------------------------------------------------------
 
 /// Bits of pairs: of those whose outlines cross twice, and of those that lie apart.
 typedef struct known {
@@ -66,8 +65,7 @@ SCREE_INLINE known ask_hints(const contact_job *job, const size_t pair[SCREE_LAN
                    .apart = own & lanes_ones(lanes_at_or_below(moved, -left))};
 }
 
-// ---- what is looked at
-// -----------------------------------------------------------------------------------------------
+// ---- what is looked at ---------------------------------------------------------------------------------------------
 
 /// Looks at a pair, and renews its hint; false: it shares nothing, and did not in the last step.
 static __attribute__((noinline)) bool look(const contact_job *job, size_t p)
@@ -101,8 +99,7 @@ SCREE_INLINE void gather(const contact_job *job, size_t p, size_t count, waiting
     }
 }
 
-// ---- what they share
-// -------------------------------------------------------------------------------------------------
+// ---- what they share -----------------------------------------------------------------------------------------------
 
 /// What has been found of a pair, into lane k: where it crosses, if that is all that is to be known.
 SCREE_INLINE void find_one(const contact_job *job, const scree_polygons *polygons, size_t p, int k, outlines_found *f)
