@@ -205,7 +205,8 @@ SCREE_INLINE kinematics outlines_kinematics(int dimension, const bodies *first, 
 {
     const lanes apart[2] = {second->position.x - first->position.x, second->position.y - first->position.y};
     const lanes bound[2] = {first->radius, second->radius};
-    const outlines_share share = outlines_work_out(first->found, apart, bound);
+    outlines_share share;
+    outlines_work_out(first->found, apart, bound, &share);
     return outlines_motion(dimension, &share, first, second, step);
 }
 

@@ -121,35 +121,33 @@ SCREE_INLINE lanes_bits is_useless(const lanes arm[2], lanes radius, lanes bound
 
 /// What those share that cross twice, the first body being that which comes first in the order of the pose.
 /// way: from the first centre to the second.
-SCREE_INLINE outlines_share cross_twice(const outlines_found *f, const body_lanes body[2], lanes_bits edge[2][2],
-                                        const lanes way[2], const lanes radius[2], const lanes bound[2])
+SCREE_INLINE void cross_twice(const outlines_found *f, const body_lanes body[2], lanes_bits edge[2][2],
+                              const lanes way[2], const lanes radius[2], const lanes bound[2], outlines_share *s)
 {
-    outlines_share s;
     lanes end[2][2];
     for (int k = 0; k < 2; k++) {
         const edge_lanes one = load_edge(f, body[0].corner, body[0].count, edge[k][0], NULL);
         const edge_lanes other = load_edge(f, body[1].corner, body[1].count, edge[k][1], way);
         const lanes from = side_of(&other, one.begin), to = side_of(&other, one.end), share = from / (from - to);
         for (int i = 0; i < 2; i++) {
-            s.edge[k][0][i] = one.end[i] - one.begin[i];
-            s.edge[k][1][i] = other.end[i] - other.begin[i];
-            end[k][i] = one.begin[i] + share * s.edge[k][0][i];
+            s->edge[k][0][i] = one.end[i] - one.begin[i];
+            s->edge[k][1][i] = other.end[i] - other.begin[i];
+            end[k][i] = one.begin[i] + share * s->edge[k][0][i];
         }
     }
     lanes twice = lanes_all(0);
     twice += sweep_corners(f, &body[0], edge[0][0], edge[1][0], end[0], end[0], end[1]);
     twice += sweep_corners(f, &body[1], edge[1][1], edge[0][1], end[0], end[1], end[0]);
-    s.area = twice / 2.0;
-    s.meet = f->twice & ~lanes_at_or_below(s.area, lanes_all(0));
-    s.chord[0] = lanes_all(0) + (end[1][1] - end[0][1]);
-    s.chord[1] = -(lanes_all(0) + (end[1][0] - end[0][0]));
+    s->area = twice / 2.0;
+    s->meet = f->twice & ~lanes_at_or_below(s->area, lanes_all(0));
+    s->chord[0] = lanes_all(0) + (end[1][1] - end[0][1]);
+    s->chord[1] = -(lanes_all(0) + (end[1][0] - end[0][0]));
     for (int i = 0; i < 2; i++) {
-        s.arm[0][i] = (end[0][i] + end[1][i]) / 2.0;
-        s.arm[1][i] = s.arm[0][i] - way[i];
+        s->arm[0][i] = (end[0][i] + end[1][i]) / 2.0;
+        s->arm[1][i] = s->arm[0][i] - way[i];
     }
-    s.twice = f->twice;
-    s.useless = is_useless(s.arm[0], radius[0], bound[0]) | is_useless(s.arm[1], radius[1], bound[1]);
-    return s;
+    s->twice = f->twice;
+    s->useless = is_useless(s->arm[0], radius[0], bound[0]) | is_useless(s->arm[1], radius[1], bound[1]);
 }
 
 /// Exchanges two numbers of the lanes of a mask.
@@ -172,9 +170,13 @@ SCREE_INLINE void exchange_share(lanes_bits mask, outlines_share *s)
 }
 
 /// Two crossings are worked out and put to the rest. apart: from the first centre to the second; given: bounding radii.
-SCREE_INLINE outlines_share outlines_work_out(const outlines_found *f, const lanes apart[2], const lanes given[2])
+SCREE_INLINE void outlines_work_out(const outlines_found *f, const lanes apart[2], const lanes given[2],
+                                    outlines_share *s)
 {
-    if (!lanes_ones(f->twice)) return f->share; // among discs alone there are no corners
+    if (!lanes_ones(f->twice)) { // among discs alone there are no corners
+        *s = f->share;
+        return;
+    }
     const lanes_bits later = lanes_below(apart[0], lanes_all(0)) |
                              (~lanes_differ(apart[0], lanes_all(0)) & lanes_below(apart[1], lanes_all(0)));
     lanes way[2], radius[2] = {f->share.radius[0], f->share.radius[1]}, bound[2] = {given[0], given[1]};
@@ -189,9 +191,9 @@ SCREE_INLINE outlines_share outlines_work_out(const outlines_found *f, const lan
                                  lanes_bits_select(later, f->count[1], f->count[0]), NULL},
                                 {lanes_bits_select(later, f->corner[0], f->corner[1]),
                                  lanes_bits_select(later, f->count[0], f->count[1]), way}};
-    outlines_share s = cross_twice(f, body, edge, way, radius, bound);
-    exchange_share(later, &s);
-    return outlines_share_select(f->twice, &s, &f->share);
+    cross_twice(f, body, edge, way, radius, bound, s);
+    exchange_share(later, s);
+    outlines_share_keep(f->twice, s, &f->share);
 }
 
 #endif

@@ -52,22 +52,23 @@ SCREE_INLINE void outlines_share_body(outlines_share *share, int k, int body, do
     OUTLINES_LANE(share->turning[body], k) = turning;
 }
 
-/// `a` where the mask is set, `b` elsewhere; what is of the bodies is that of b.
-SCREE_INLINE outlines_share outlines_share_select(lanes_bits mask, const outlines_share *a, const outlines_share *b)
+/// Of lanes where the mask is not set, and of the bodies, it becomes that of `other`.
+SCREE_INLINE void outlines_share_keep(lanes_bits mask, outlines_share *s, const outlines_share *other)
 {
-    outlines_share s = *b;
-    s.meet = (mask & a->meet) | (~mask & b->meet);
-    s.twice = (mask & a->twice) | (~mask & b->twice);
-    s.useless = (mask & a->useless) | (~mask & b->useless);
-    s.area = lanes_select(mask, a->area, b->area);
+    s->meet = (mask & s->meet) | (~mask & other->meet);
+    s->twice = (mask & s->twice) | (~mask & other->twice);
+    s->useless = (mask & s->useless) | (~mask & other->useless);
+    s->area = lanes_select(mask, s->area, other->area);
     for (int i = 0; i < 2; i++) {
-        s.chord[i] = lanes_select(mask, a->chord[i], b->chord[i]);
+        s->radius[i] = other->radius[i];
+        s->turning[i] = other->turning[i];
+        s->chord[i] = lanes_select(mask, s->chord[i], other->chord[i]);
         for (int k = 0; k < 2; k++) {
-            s.arm[k][i] = lanes_select(mask, a->arm[k][i], b->arm[k][i]);
-            for (int e = 0; e < 2; e++) s.edge[e][k][i] = lanes_select(mask, a->edge[e][k][i], b->edge[e][k][i]);
+            s->arm[k][i] = lanes_select(mask, s->arm[k][i], other->arm[k][i]);
+            for (int e = 0; e < 2; e++)
+                s->edge[e][k][i] = lanes_select(mask, s->edge[e][k][i], other->edge[e][k][i]);
         }
     }
-    return s;
 }
 
 #endif

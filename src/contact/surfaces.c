@@ -319,6 +319,12 @@ static void add_to_surface(contact_job *job, int surface, const scree_vector hub
     }
 }
 
+/// Whether a body sleeps beside a wall that stands: nothing of their contact changes.
+static bool sleeps_on(const scree_state *state, size_t row, const scree_surface *surface)
+{
+    return scree_body_sleeps(state, row) && surface->stands;
+}
+
 SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state *state, group *g)
 {
     const size_t row = g->pairs->body[g->begin];
@@ -329,7 +335,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         if (scree_wall_pair_law(g->pairs, p) != job->law) continue;
         if (!touch && memory_is_clear(&rows)) continue;
         const scree_surface *surface = contact_surface_of(g->wall_set, g->pairs->wall[p]);
-        if (scree_sleeps_on(state, row, surface->config)) continue;
+        if (sleeps_on(state, row, surface)) continue;
         scree_closest_point left;
         if (!touch) scree_primitive_closest_point(g->wall_set, g->pairs->wall[p], g->position, &left);
         const scree_closest_point *closest = touch ? &touch->closest : &left;
@@ -358,7 +364,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
 static bool rests(const scree_state *state, const group *g, size_t row)
 {
     for (size_t p = g->begin; p < g->end; p++)
-        if (!scree_sleeps_on(state, row, contact_surface_of(g->wall_set, g->pairs->wall[p])->config)) return false;
+        if (!sleeps_on(state, row, contact_surface_of(g->wall_set, g->pairs->wall[p]))) return false;
     return true;
 }
 

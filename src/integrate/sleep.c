@@ -16,7 +16,7 @@
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
 /// as whole numbers (state/sleep.h). So is what walls that stand exert; what all that sleep exert on each of these is
-/// summed anew whenever some fall asleep or wake.
+/// summed anew whenever some beside walls fall asleep or wake.
 ///
 /// An approximation: pushes below `wake` do not pass what sleeps, and motion below `force` and `motion` stops; momentum
 /// is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md. Cost: 2 ns a body
@@ -29,8 +29,6 @@
 #include "case/config.h"
 #include "comm/comm.h"
 #include "contact/resting.h"
-#include "contact/settle.h"
-#include "contact/single.h"
 #include "integrate/integrate.h"
 #include "module/stage.h"
 #include "search/neighbours.h"
@@ -44,9 +42,6 @@
 /// Steps from one time at which some wake, or fall asleep, to the next: each looks at all pairs.
 enum { WAKE_EVERY = 16, FALL_EVERY = 128 };
 _Static_assert(FALL_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
-
-/// In `asleep`, while a step decides.
-enum { AWAKE = 0, ASLEEP = 1, FALLS = 2, WAKES = 3 };
 
 // ---- whether ------------------------------------------------------------------------------------------------------
 
@@ -119,7 +114,7 @@ static size_t mark_falling(const scree_context *c, const scree_sleep_limits *lim
         const size_t row = moving ? moving[k] : k;
         sleep->quiet[row] = is_quiet(c, limits, row) ? sleep->quiet[row] + FALL_EVERY : 0;
         if (!(sleep->quiet[row] >= needed)) continue;
-        sleep->asleep[row] = FALLS;
+        sleep->asleep[row] = SCREE_FALLS;
         found++;
     }
     return found;
@@ -137,8 +132,10 @@ static void add_push(const scree_context *c, const scree_sleep_limits *limits, s
 static bool is_pushed(const scree_state *state, size_t row)
 {
     const scree_sum_row *sum = &state->sum[row];
-    const int64_t third = state->dimension == 3 ? sum->fz : sum->torque;
-    return sum->contacts != 0 || sum->fx != 0 || sum->fy != 0 || third != 0;
+    const int64_t any = sum->contacts | sum->fx | sum->fy | (state->dimension == 3 ? sum->fz : sum->torque);
+    if (state->dimension == 2) return any != 0;
+    const scree_torque_row *torque = &state->torque[row];
+    return (any | torque->x | torque->y | torque->z) != 0;
 }
 
 /// Marks those that wake; returns how many. What nothing acts on but others that sleep keeps its mean.
@@ -148,109 +145,19 @@ static size_t mark_waking(const scree_context *c, const scree_sleep_limits *limi
     const scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
     size_t found = 0;
+    sleep->pushed_count = 0;
     for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
-        if (sleep->asleep[row] != ASLEEP || !is_pushed(state, row)) continue;
+        if (sleep->asleep[row] != SCREE_ASLEEP || !is_pushed(state, row)) continue;
+        sleep->pushed[sleep->pushed_count++] = (uint32_t)row;
         add_push(c, limits, row);
         if (!now || size_of(sleep->push[row]) <= limits->wake) continue;
-        sleep->asleep[row] = WAKES;
+        sleep->asleep[row] = SCREE_WAKES;
         found++;
     }
     return found;
 }
 
-// ---- from the sums to what rests, and back ------------------------------------------------------------------------
-
-static void add(int64_t *units, uint64_t integer, double quantum, double unit, bool minus)
-{
-    const int64_t more = llrint((double)(int64_t)integer * (quantum / unit));
-    *units += minus ? -more : more;
-}
-
-/// What a contact exerts on one of its bodies.
-static void add_to_one(scree_state *state, uint32_t row, const contact_quanta *q, bool is_first, bool minus)
-{
-    const scree_sleep *sleep = scree_sleep_of(state);
-    scree_resting *resting = &sleep->resting[row];
-    const bool in_3d = state->dimension == 3;
-    const quanta force = is_first ? q->force : quanta_opposite(q->force);
-    const quanta torque = is_first ? q->torque_first : q->torque_second;
-    const uint64_t forces[3] = {force.x, force.y, in_3d ? force.z : 0};
-    const uint64_t torques[3] = {in_3d ? torque.x : 0, in_3d ? torque.y : 0, in_3d ? torque.z : torque.x};
-    for (int k = 0; k < 3; k++) {
-        add(&resting->force[k], forces[k], state->force_quantum, sleep->force_unit, minus);
-        add(&resting->torque[k], torques[k], state->torque_quantum, sleep->torque_unit, minus);
-    }
-    resting->contacts += minus ? -1 : 1;
-}
-
-/// Dashpots are at rest among those that sleep. In the plane two numbers are theirs; what others a law remembers of its
-/// last force stays.
-static void forget_dashpots(int dimension, const memory_rows *memory)
-{
-    for (int k = 0; k < (dimension == 2 ? 2 : 4) && memory->last_force; k++) memory->last_force->value[k] = 0;
-    if (memory->rolling) memset(memory->rolling->last, 0, sizeof memory->rolling->last);
-}
-
-/// A pair of which one falls asleep beside one that sleeps, or wakes.
-static void move_pair(const scree_context *c, size_t p, bool rests)
-{
-    scree_state *state = c->state;
-    scree_work *work = c->work;
-    if (!contact_pair_is_there(state, work, p)) return;
-    const uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
-    const contact_body one = contact_body_get(state, first), other = contact_body_get(state, second);
-    const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
-    const contact_evaluation e = contact_evaluate_again(c->model, state, true, &one, &other, NULL, &memory);
-    add_to_one(state, first, &e.quanta, true, !rests);
-    add_to_one(state, second, &e.quanta, false, !rests);
-    if (rests) forget_dashpots(state->dimension, &memory);
-}
-
-static bool slept(uint8_t mark)
-{
-    return mark == ASLEEP || mark == WAKES;
-}
-
-static bool will_sleep(uint8_t mark)
-{
-    return mark == ASLEEP || mark == FALLS;
-}
-
-static void move_pairs(const scree_context *c)
-{
-    const scree_pair_list *pairs = &c->work->pairs;
-    const uint8_t *mark = scree_sleep_of(c->state)->asleep;
-    for (size_t p = scree_pairs_held(pairs); p < pairs->count; p++) {
-        const uint8_t one = mark[pairs->first[p]], other = mark[pairs->second[p]];
-        const bool rested = slept(one) && slept(other), rests = will_sleep(one) && will_sleep(other);
-        if (rested != rests) move_pair(c, p, rests);
-    }
-}
-
-/// The contacts with walls that stand, of one that falls asleep or wakes.
-static void move_group(const scree_context *c, const contact_wall_group *group, bool rests)
-{
-    contact_quanta exerted;
-    for (int k = 0; k < group->touches.count; k++) {
-        if (!contact_standing_wall(c->model, c->state, c->work, group, k, &exerted)) continue;
-        const memory_rows memory = contact_memory_of(c->work, CONTACT_ELEMENT, group->touches.touch[k].pair);
-        add_to_one(c->state, group->row, &exerted, true, !rests);
-        if (rests) forget_dashpots(c->state->dimension, &memory);
-    }
-}
-
-static void move_walls(const scree_context *c)
-{
-    const scree_wall_pair_list *pairs = &c->work->primitive_pairs;
-    const uint8_t *mark = scree_sleep_of(c->state)->asleep;
-    for (size_t begin = 0, end; begin < pairs->count; begin = end) {
-        end = contact_group_end(pairs, begin);
-        const uint8_t own = mark[pairs->body[begin]];
-        if (slept(own) == will_sleep(own)) continue;
-        const contact_wall_group group = contact_wall_group_at(c->state, c->work, begin);
-        move_group(c, &group, will_sleep(own));
-    }
-}
+// ---- the change -----------------------------------------------------------------------------------------------------
 
 static void stop(scree_state *state, size_t row)
 {
@@ -283,8 +190,8 @@ static double kinetic_taken(const scree_context *c, size_t row)
 {
     const uint8_t mark = scree_sleep_of(c->state)->asleep[row];
     double translation, rotation;
-    if (mark == WAKES) return -kinetic_of_waking(c, row);
-    if (mark != FALLS) return 0;
+    if (mark == SCREE_WAKES) return -kinetic_of_waking(c, row);
+    if (mark != SCREE_FALLS) return 0;
     scree_body_kinetic(c->model, c->state, row, &translation, &rotation);
     return translation + rotation;
 }
@@ -305,7 +212,7 @@ static void wake_all(const scree_context *c)
     scree_sleep *sleep = scree_sleep_of(state);
     if (sleep->count == 0) return;
     for (size_t row = 0; row < state->count; row++)
-        if (sleep->asleep[row]) sleep->asleep[row] = WAKES;
+        if (sleep->asleep[row]) sleep->asleep[row] = SCREE_WAKES;
     book_taken(c);
     scree_sleep_end(state);
 }
@@ -318,11 +225,11 @@ static void begin_change(const scree_context *c)
     const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
     book_taken(c);
     for (size_t row = 0; row < state->count; row++) {
-        if (sleep->asleep[row] == FALLS)
+        if (sleep->asleep[row] == SCREE_FALLS)
             stop(state, row);
-        else if (sleep->asleep[row] == WAKES)
+        else if (sleep->asleep[row] == SCREE_WAKES)
             scree_sleep_add_resting(state, row);
-        if (integrator->begin_anew && sleep->asleep[row] > ASLEEP) integrator->begin_anew(state, row);
+        if (integrator->begin_anew && sleep->asleep[row] > SCREE_ASLEEP) integrator->begin_anew(state, row);
     }
 }
 
@@ -330,16 +237,16 @@ static void end_change(scree_state *state)
 {
     scree_sleep *sleep = scree_sleep_of(state);
     for (size_t row = 0; row < state->count; row++) {
-        if (sleep->asleep[row] == WAKES) sleep->resting[row] = (scree_resting){0};
-        if (sleep->asleep[row] == FALLS) {
+        if (sleep->asleep[row] == SCREE_WAKES) sleep->resting[row] = (scree_resting){0};
+        if (sleep->asleep[row] == SCREE_FALLS) {
             state->sum[row] = (scree_sum_row){0};
             if (state->torque) state->torque[row] = (scree_torque_row){0};
         }
-        if (sleep->asleep[row] > ASLEEP) {
+        if (sleep->asleep[row] > SCREE_ASLEEP) {
             sleep->quiet[row] = 0;
             memset(sleep->push[row], 0, sizeof sleep->push[row]);
         }
-        sleep->asleep[row] = will_sleep(sleep->asleep[row]);
+        sleep->asleep[row] = scree_will_sleep(sleep->asleep[row]);
     }
     sleep->changes++;
     scree_sleep_list_moving(state);
@@ -356,10 +263,8 @@ static void change(const scree_context *c)
     }
     sleep->overlap = fmax(sleep->overlap, state->largest_overlap);
     begin_change(c);
-    move_pairs(c);
-    move_walls(c);
+    contact_move_resting(c->model, state, c->work);
     end_change(state);
-    contact_sum_resting_loads(c->model, state, c->work);
 }
 
 // ---- the passes ---------------------------------------------------------------------------------------------------
@@ -472,6 +377,7 @@ static scree_status derive(scree_state *state, scree_error *error)
     scree_sleep *sleep = scree_sleep_of(state);
     (void)error;
     scree_sleep_list_moving(state);
+    sleep->pushed_count = SCREE_SLEEP_ALL;
     if (!sleep->asleep) return SCREE_OK;
     int64_t all = (int64_t)sleep->count;
     scree_comm_add(state, &all, 1);
@@ -533,6 +439,8 @@ static const scree_field fields[] = {
     BODY(push, double[6], "push", SCREE_FIELD_DOUBLE, 6, "1",
          "of a body that sleeps, mean of its resultants: force over weight, torque over weight and radius"),
     BODY(moving, uint32_t, "moving", SCREE_FIELD_UINT32, 1, "1", "rows that are awake", .role = SCREE_FIELD_DERIVED),
+    BODY(pushed, uint32_t, "pushed", SCREE_FIELD_UINT32, 1, "1", "rows that sleep and are pushed",
+         .role = SCREE_FIELD_DERIVED),
     ONE(force_unit, SCREE_FIELD_DOUBLE, 1, "N", "unit of what rests", SCREE_RANGE(0, DBL_MAX)),
     ONE(torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of its torques", SCREE_RANGE(0, DBL_MAX)),
     ONE(wall_torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of the torques on walls", SCREE_RANGE(0, DBL_MAX)),
@@ -546,6 +454,7 @@ static const scree_field fields[] = {
     DERIVED(total, "the same of all processes"),
     DERIVED(changes, "times that some fell asleep or woke"),
     DERIVED(moving_count, "rows that are awake"),
+    DERIVED(pushed_count, "rows that sleep and are pushed"),
     DERIVED(listed, "1: they are listed"),
     DERIVED(bodies, "changes of the bodies, then"),
     DERIVED(found, "bodies that fall asleep or wake in this step"),

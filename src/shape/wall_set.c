@@ -42,6 +42,7 @@ static void find_motion(scree_surface *surface)
     double offset[3], beside[3];
     const double velocity[3] = {config->velocity[0].value, config->velocity[1].value, config->velocity[2].value};
     surface->steady = scree_wall_is_steady(config);
+    surface->stands = scree_wall_stands(config);
     surface->shifts = !surface->steady || scree_dot(velocity, velocity) > 0;
     surface->turns = scree_dot(config->spin, config->spin) > 0;
     if (surface->endless && surface->steady) surface->shifts = scree_dot(velocity, surface->normal[0]) != 0;

@@ -70,6 +70,7 @@ typedef struct scree_surface {
     // motion
     bool turns, shifts;    ///< the geometry does
     bool steady;           ///< its velocity is the same at all times
+    bool stands;           ///< it never moves
     double reach;          ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin
     double rotation[9];    ///< now, 3 x 3 by rows
     scree_vector shift;    ///< m, now

@@ -43,6 +43,7 @@ void scree_sleep_list(scree_state *state)
 {
     scree_sleep *sleep = scree_sleep_of(state);
     scree_sleep_list_moving(state);
+    sleep->pushed_count = SCREE_SLEEP_ALL;
     sleep->listed = sleep->moving != NULL; // behind a checkpoint they are not there before the first step
     sleep->bodies = state->changes;
 }
@@ -50,7 +51,10 @@ void scree_sleep_list(scree_state *state)
 void scree_sleep_clear_sums(scree_state *state)
 {
     const scree_sleep *sleep = scree_sleep_of(state);
-    for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
+    const bool known = sleep->pushed_count != SCREE_SLEEP_ALL;
+    const size_t count = known ? sleep->pushed_count : state->count;
+    for (size_t k = 0; k < count && sleep->count > 0; k++) {
+        const size_t row = known ? sleep->pushed[k] : k;
         if (!sleep->asleep[row]) continue;
         state->sum[row] = (scree_sum_row){0};
         if (state->torque) state->torque[row] = (scree_torque_row){0};
@@ -68,6 +72,7 @@ void scree_sleep_end(scree_state *state)
         sleep->resting[row] = (scree_resting){0};
         memset(sleep->push[row], 0, sizeof sleep->push[row]);
     }
+    memset(sleep->wall, 0, sizeof sleep->wall);
     sleep->overlap = 0;
     sleep->count = sleep->total = 0;
     sleep->changes++;

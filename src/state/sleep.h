@@ -8,7 +8,6 @@
 #ifndef SCREE_STATE_SLEEP_H
 #define SCREE_STATE_SLEEP_H
 
-#include "case/wall_motion.h"
 #include "state/work.h"
 
 /// What the contacts of a body with others that sleep, and with walls that stand, exert on it, while it sleeps. Whole
@@ -23,6 +22,21 @@ typedef struct scree_resting {
 typedef struct scree_resting_load {
     int64_t force[3], torque[3]; ///< units of force, and of torque on walls
 } scree_resting_load;
+
+/// In `asleep`, the last two while a step decides.
+typedef enum scree_sleep_mark { SCREE_AWAKE, SCREE_ASLEEP, SCREE_FALLS, SCREE_WAKES } scree_sleep_mark;
+
+static inline bool scree_slept(uint8_t mark)
+{
+    return mark == SCREE_ASLEEP || mark == SCREE_WAKES;
+}
+
+static inline bool scree_will_sleep(uint8_t mark)
+{
+    return mark == SCREE_ASLEEP || mark == SCREE_FALLS;
+}
+
+#define SCREE_SLEEP_ALL UINT64_MAX
 
 /// State of the module `sleep`.
 typedef struct scree_sleep {
@@ -44,9 +58,11 @@ typedef struct scree_sleep {
     uint64_t changes;     ///< times that some fell asleep or woke in this process (derived)
     uint32_t *moving;     ///< rows of those that are awake; moving_count of them, where some sleep (derived)
     uint64_t moving_count;
-    uint64_t listed; ///< 1: it is of the list of pairs, and of these
-    uint64_t bodies; ///< changes of the state, then (derived)
-    uint64_t found;  ///< bodies that fall asleep or wake in this step, of all processes (derived)
+    uint32_t *pushed;      ///< rows of those that sleep whose sums are not clear; pushed_count of them (derived)
+    uint64_t pushed_count; ///< SCREE_SLEEP_ALL: not known, any of them
+    uint64_t listed;       ///< 1: it is of the list of pairs, and of these
+    uint64_t bodies;       ///< changes of the state, then (derived)
+    uint64_t found;        ///< bodies that fall asleep or wake in this step, of all processes (derived)
 } scree_sleep;
 
 static inline scree_sleep *scree_sleep_of(const scree_state *state)
@@ -58,12 +74,6 @@ static inline bool scree_body_sleeps(const scree_state *state, size_t row)
 {
     const scree_sleep *sleep = scree_sleep_of(state);
     return sleep->count > 0 && (sleep->asleep[row] & 1); // even while one is marked (integrate/sleep.c)
-}
-
-/// Whether a body sleeps beside a wall of the case that stands: nothing of their contact changes.
-static inline bool scree_sleeps_on(const scree_state *state, size_t row, const scree_config_wall *wall)
-{
-    return scree_body_sleeps(state, row) && scree_wall_stands(wall);
 }
 
 /// Rows that move, and how many; NULL: the rows 0 .. count - 1.

@@ -106,6 +106,16 @@ static double beside_walls(const scree_simulation *s, const scree_vector table)
     return worst;
 }
 
+/// Whether something that sleeps is noted to rest on a wall.
+static bool rests_on_walls(const scree_simulation *s)
+{
+    const scree_sleep *sleep = scree_sleep_of(&s->state);
+    int64_t any = 0;
+    for (int w = 0; w < SCREE_SURFACES; w++)
+        for (int i = 0; i < 3; i++) any |= sleep->wall[w].force[i];
+    return any != 0;
+}
+
 /// On each that sleeps the sums, what rests, and the weight are the contacts of the table and the weight: nothing is
 /// lost and nothing counts twice, through all events.
 static void what_rests_is_what_contacts_exert(void **unused)
@@ -117,10 +127,12 @@ static void what_rests_is_what_contacts_exert(void **unused)
         scree_vector all[32], force, torque, walls;
         size_t seen = 0;
         double worst = 0;
+        bool rested = false;
         for (int k = 1; k <= 28; k++) {
             step_to(&s, 0.05 * k);
             sum_table(&s, all, walls);
             worst = fmax(worst, beside_walls(&s, walls));
+            rested = rested || rests_on_walls(&s);
             for (size_t row = 0; row < s.state.count; row++) {
                 if (!scree_body_sleeps(&s.state, row)) continue;
                 const double weight = 9.81 * scree_body_mass(&s.state, row);
@@ -134,6 +146,9 @@ static void what_rests_is_what_contacts_exert(void **unused)
         }
         print_message("%zu that sleep: largest difference %.2g weights\n", seen, worst);
         assert_true(seen > 50 && worst < 1e-6);
+        assert_true(rested);
+        scree_sleep_end(&s.state);
+        assert_false(rests_on_walls(&s));
         close_both(&s, c);
     }
 }
