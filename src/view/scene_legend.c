@@ -5,10 +5,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#define BAR_WIDTH  11.0
-#define BAR_HEIGHT 150.0
-#define BAR_TIP    9.0 /* triangles for values beyond the limits */
-#define GAP        16.0
+#define BAR_WIDTH   11.0
+#define BAR_HIGHEST 150.0
+#define BAR_LOWEST  60.0
+#define BAR_TIP     9.0 /* triangles for values beyond the limits */
+#define GAP         16.0
 
 /// Gradient of the colour map from (0, bottom) to (0, top).
 static void set_gradient(cairo_t *cairo, scree_colour_map map, double bottom, double top)
@@ -72,6 +73,12 @@ static void limits_text(const scree_limits *limits, bool symmetric, char *text, 
                        symmetric ? "98th percentile of the magnitude" : "2nd and 98th percentile", smallest, largest);
 }
 
+/// As high as the sample, with the texts around it, where that is flat.
+static double bar_height(const scree_scene_view *view)
+{
+    return fmin(BAR_HIGHEST, fmax(BAR_LOWEST, view->height - 40));
+}
+
 static double draw_bar(const scree_scene_view *view, cairo_t *cairo, double x, double y)
 {
     const scree_scene *scene = view->scene;
@@ -81,7 +88,7 @@ static double draw_bar(const scree_scene_view *view, cairo_t *cairo, double x, d
     y = scree_text_paragraph(cairo, x, y, SCREE_SCENE_LEGEND_WIDTH, view->field_name, name);
     scree_ticks ticks = scree_ticks_make(view->limits.low, view->limits.high);
     double above = fmax(view->limits.clipped_high ? BAR_TIP : 0, ticks.factor[0] ? 14 : 0);
-    double top = y + 5 + above, bottom = top + BAR_HEIGHT;
+    double top = y + 5 + above, bottom = top + bar_height(view);
     bar_path(&view->limits, cairo, x, top, bottom);
     set_gradient(cairo, scene->map, bottom, top);
     cairo_fill_preserve(cairo);
