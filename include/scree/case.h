@@ -78,6 +78,7 @@ typedef struct scree_case_summary {
     double tabor;                  ///< largest Tabor parameter of contacts of mean grains; NAN where none sticks
     double preparation;            ///< s, of the stepping
     double lists; ///< s, beside it of several processes: pairs of the whole, where process 0 looks at it
+    bool sleeps;  ///< particles that are quiet may be left out of steps: the times are those with all of them awake
 } scree_case_summary;
 /// Takes some tenths of a second: the case is set going for a moment. Times that cannot be found so are NAN. Errors:
 /// SCREE_ERROR_INPUT, memory.

@@ -41,7 +41,7 @@ class CaseSummaryStruct(Structure):
                 ("mean_radius", c_double), ("thickness", c_double), ("reference_velocity", c_double),
                 ("steps", c_double), ("seconds", c_double), ("stepping", c_double), ("output", c_double),
                 ("figures", c_double), ("rate", c_double), ("memory", c_double), ("tabor", c_double),
-                ("preparation", c_double), ("lists", c_double)]
+                ("preparation", c_double), ("lists", c_double), ("sleeps", c_bool)]
 
 
 class ContactPoint(Structure):

@@ -46,6 +46,7 @@ class CaseSummary:
     rate: float  #: particle-steps per second
     memory: float  #: bytes
     tabor: float  #: largest Tabor parameter of contacts of mean grains
+    sleeps: bool  #: particles that are quiet may be left out of steps: the times are those with all of them awake
 
 
 class CheckedCase:

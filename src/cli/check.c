@@ -41,7 +41,8 @@ static void print_time(const scree_case_summary *summary)
     char rate[TEXT], more[2 * TEXT];
     scree_human_count(rate, sizeof rate, summary->rate);
     (void)snprintf(more, sizeof more, "at %s particle-steps/s", rate);
-    print_duration("time needed", summary->seconds, "on one thread");
+    print_duration("time needed", summary->seconds,
+                   summary->sleeps ? "on one thread, if no particle sleeps" : "on one thread");
     if (isnan(summary->seconds)) return;
     print_duration("  stepping", summary->stepping, more);
     print_duration("  output", summary->output, "samples, snapshots, results");

@@ -30,6 +30,15 @@ static double largest_tabor(const scree_model *model)
     return largest > 0 ? largest : NAN;
 }
 
+static bool any_may_sleep(const scree_model *model)
+{
+    for (int64_t k = 0; k < model->stage_count; k++) {
+        const scree_stage_numbers *numbers = scree_modules[model->stages[k].kind]->numbers;
+        if (numbers->sleep && !isnan(numbers->sleep(model->stages[k].own).window)) return true;
+    }
+    return false;
+}
+
 /// What cannot be probed leaves times that are not known; a case that is wrong shows when it is run.
 static scree_status estimate(const scree_case *c, const scree_model *model, scree_case_summary *summary,
                              scree_error *error)
@@ -73,7 +82,8 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
                                     .mean_radius = model.mean_radius,
                                     .thickness = model.thickness,
                                     .reference_velocity = model.reference_velocity,
-                                    .tabor = largest_tabor(&model)};
+                                    .tabor = largest_tabor(&model),
+                                    .sleeps = any_may_sleep(&model)};
     (void)snprintf(summary->name, sizeof summary->name, "%s", c->config.name);
     // Walls that cannot be made are found here.
     scree_wall_set *wall_set;

@@ -67,6 +67,7 @@ same "$(grep -v '^#' <<<"$output")" "$(grep -v '^#' <<<"$resolved")" "a resolved
 expect 0 'friction: 0?\.3\b' "$scree" check my.yaml --set materials.0.friction=0.3
 expect 0 '^# particles +600' "$scree" check my.yaml --quick
 expect 0 '^# time needed +[0-9].*, on one thread$' "$scree" check my.yaml --quick
+expect 0 '^# time needed .*, if no particle sleeps$' "$scree" check pile-point --quick --set 'stages.pour.sleep_window=5 ms'
 for part in stepping output figures; do expect 0 "^#   $part +[0-9]" "$scree" check my.yaml --quick; done
 expect 0 '^# memory +[0-9.]+ MB$' "$scree" check rotating-drum
 expect 0 '^#   figures +0 s$' "$scree" check periodic-shear --set output.figures=no

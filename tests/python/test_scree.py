@@ -60,6 +60,9 @@ class Cases(unittest.TestCase):
         self.assertEqual(again, case.text())
         self.assertEqual(case.summary().particles, 77)
         self.assertGreater(case.summary().critical_step, 0)
+        self.assertFalse(case.summary().sleeps)
+        pile = scree.Case("pile-point", quick=True, set={"stages.pour.sleep_window": "5 ms"})
+        self.assertTrue(pile.summary().sleeps)
         self.assertIsInstance(case.warnings(), list)
 
     def test_errors(self):
