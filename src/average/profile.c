@@ -88,6 +88,7 @@ static void tell_axes(const reading *r, scree_average_sink *sink, void *user)
 {
     const size_t order = scree_average_table_find(r->cuts, "axes_order");
     const size_t fabric = scree_average_table_find(r->cuts, "fabric_angle");
+    const size_t normals = scree_average_table_find(r->cuts, "normals_angle");
     const size_t axes = scree_average_table_find(r->cuts, "axes_angle");
     const bool pressed = scree_average_table_find(r->cuts, "pressure_angle") != SIZE_MAX;
     if (order != SIZE_MAX) {
@@ -96,6 +97,8 @@ static void tell_axes(const reading *r, scree_average_sink *sink, void *user)
         sink(user, "axes_order_core", "1", mean_between(r, order, 0, CORE, 0));
     }
     if (pressed && fabric != SIZE_MAX) sink(user, "pressure_fabric_tilt", "degree", tilt(r, "pressure_angle", fabric));
+    if (pressed && normals != SIZE_MAX)
+        sink(user, "pressure_normals_tilt", "degree", tilt(r, "pressure_angle", normals));
     if (pressed && axes != SIZE_MAX) sink(user, "pressure_axes_tilt", "degree", tilt(r, "pressure_angle", axes));
 }
 

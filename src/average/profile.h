@@ -11,8 +11,9 @@
 ///     long_axis_tilt                         mean angle between the long axis (inertia, R 2.92) and the horizontal
 ///     axes_tilt                              the same of the mean of e (x) e; 45 degrees where there is no order
 ///     axes_order_core                        deviator of the mean of e (x) e in the core
-///     pressure_fabric_tilt, pressure_axes_tilt  mean angle between the axis of the largest pressure and the major axis
-///                                            of the fabric tensor, and the long axes, all elements half inside
+///     pressure_fabric_tilt                   mean angle between the axis of the largest pressure and the major axis of
+///                                            the fabric tensor (branches, as R has it), all elements half inside
+///     pressure_normals_tilt, pressure_axes_tilt  the same of the fabric of the contact normals, and of the long axes
 ///     force_core_ratio                       mean normal force of contacts within 0.1 of the half width from the axis
 ///                                            over that at 0.2 to 0.5, lower half of the height
 ///

@@ -3,7 +3,8 @@
 /// A source that follows the top stands above the highest point that the pile had when its layer began; one that
 /// follows the plateau reaches from end to end of it, less a margin, and keeps what the case gave it until there is a
 /// pile. A plateau narrower than its margins leaves a point in its middle. Its own motion and the shifts of its layers
-/// are added to that.
+/// are added to that: of one that follows the plateau a single shift, since the plateau has moved with the layers that
+/// made it.
 ///
 /// Random numbers: uniform ones by counter (base/random.h) of the number of the body, so that nothing depends on when
 /// they are drawn, or for which source.
@@ -61,8 +62,8 @@ void scree_source_place_now(const scree_model *model, const scree_config_source 
         place->origin[0] = own->left;
         place->edge[0][0] = own->right - own->left;
     }
-    const double since = own->begun ? time - own->start : 0;
-    for (int c = 0; c < 3; c++) place->origin[c] += since * source->motion[c] + (double)own->layer * source->shift[c];
+    const double since = own->begun ? time - own->start : 0, shifts = isnan(own->left) ? (double)own->layer : 1;
+    for (int c = 0; c < 3; c++) place->origin[c] += since * source->motion[c] + shifts * source->shift[c];
     if (isnan(source->above) || isnan(own->top)) return;
     for (int e = 0; e < place->edges; e++) low += fmin(0, place->edge[e][up]);
     place->origin[up] = own->top + source->above + reach - low;

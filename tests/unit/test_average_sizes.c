@@ -136,9 +136,9 @@ static void test_profile(void **state)
     const struct {
         const char *name;
         double value;
-    } expected[] = {{"density_core", 0.9},      {"density_excess", 0.125},  {"pressure_axis", 0.5},
-                    {"pressure_beside", 0.65},  {"axes_tilt", 20},          {"pressure_fabric_tilt", 30},
-                    {"pressure_axes_tilt", 60}, {"pressure_fluctuation", 0}};
+    } expected[] = {{"density_core", 0.9},      {"density_excess", 0.125},   {"pressure_axis", 0.5},
+                    {"pressure_beside", 0.65},  {"axes_tilt", 20},           {"pressure_fabric_tilt", 30},
+                    {"pressure_axes_tilt", 60}, {"pressure_fluctuation", 0}, {"pressure_normals_tilt", 15}};
     for (int j = 0; j < POINTS; j++) {
         const double at = (j - 20) / 20.0;
         check(scree_average_table_begin_row(&table, &error), &error);
@@ -149,6 +149,7 @@ static void test_profile(void **state)
         scree_average_table_take(&table, "vertical_pressure_scaled", "1", fabs(at) < 0.2 ? 0.5 : 0.65);
         scree_average_table_take(&table, "pressure_angle", "degree", 80);
         scree_average_table_take(&table, "fabric_angle", "degree", -70);
+        scree_average_table_take(&table, "normals_angle", "degree", -85);
         scree_average_table_take(&table, "axes_angle", "degree", fabs(at) > 0.85 ? 0 : 20);
         scree_average_table_take(&table, "axes_order", "1", 0.5);
         scree_average_table_take(&table, "long_axis_angle", "degree", -10);

@@ -441,7 +441,7 @@ static void sources_follow(void **unused)
             // Born so far above the top of then; it has fallen for a step.
             assert_true(fabs(body->y - body->radius - (now->top + 4e-3)) < 9.81 * back * back + 1e-12);
             if (isnan(now->left)) continue;
-            const double shift = 0.4e-3 * (double)now->layer;
+            const double shift = 0.4e-3; // against the layer before, wherever that lies
             assert_true(body->x >= now->left + shift - 1e-12 && body->x <= now->right + shift + 1e-12);
             narrower += now->right - now->left < 20e-3;
         }
