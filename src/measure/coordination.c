@@ -58,7 +58,7 @@ typedef struct supports {
 static void count_contacts(const scree_contact_table *table, const supports *s)
 {
     const scree_ghost_notes *elsewhere = &s->elsewhere.notes;
-    memset(s->contacts, 0, s->elsewhere.rows * sizeof *s->contacts);
+    for (size_t row = 0; row < s->elsewhere.rows; row++) s->contacts[row] = 0; // there may be none
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
         bool outer = scree_contact_is_outer(contact);
