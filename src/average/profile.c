@@ -87,19 +87,19 @@ static double tilt(const reading *r, const char *first, size_t second)
 static void tell_axes(const reading *r, scree_average_sink *sink, void *user)
 {
     const size_t order = scree_average_table_find(r->cuts, "axes_order");
-    const size_t fabric = scree_average_table_find(r->cuts, "fabric_angle");
-    const size_t normals = scree_average_table_find(r->cuts, "normals_angle");
-    const size_t axes = scree_average_table_find(r->cuts, "axes_angle");
+    static const char *const beside[][2] = {{"pressure_fabric_tilt", "fabric_angle"},
+                                            {"pressure_normals_tilt", "normals_angle"},
+                                            {"pressure_axes_tilt", "axes_angle"}};
     const bool pressed = scree_average_table_find(r->cuts, "pressure_angle") != SIZE_MAX;
     if (order != SIZE_MAX) {
         sink(user, "long_axis_tilt", "degree", tilt(r, "long_axis_angle", SIZE_MAX));
         sink(user, "axes_tilt", "degree", tilt(r, "axes_angle", SIZE_MAX));
         sink(user, "axes_order_core", "1", mean_between(r, order, 0, CORE, 0));
     }
-    if (pressed && fabric != SIZE_MAX) sink(user, "pressure_fabric_tilt", "degree", tilt(r, "pressure_angle", fabric));
-    if (pressed && normals != SIZE_MAX)
-        sink(user, "pressure_normals_tilt", "degree", tilt(r, "pressure_angle", normals));
-    if (pressed && axes != SIZE_MAX) sink(user, "pressure_axes_tilt", "degree", tilt(r, "pressure_angle", axes));
+    for (size_t k = 0; k < sizeof beside / sizeof *beside && pressed; k++) {
+        const size_t column = scree_average_table_find(r->cuts, beside[k][1]);
+        if (column != SIZE_MAX) sink(user, beside[k][0], "degree", tilt(r, "pressure_angle", column));
+    }
 }
 
 void scree_average_profile_tell(const scree_average_table *cuts, size_t points, scree_average_sink *sink, void *user)

@@ -45,13 +45,26 @@ _Static_assert(FALL_EVERY % WAKE_EVERY == 0, "all are found in the steps in whic
 
 // ---- whether ------------------------------------------------------------------------------------------------------
 
-static scree_sleep_limits limits_of(const scree_model *model, const scree_state *state)
+static const scree_sleep_limits none = {.window = NAN};
+
+static scree_sleep_limits limits_in(const scree_config_stage *stage)
 {
-    const scree_sleep_limits none = {.window = NAN};
-    if (state->stage.index >= model->stage_count) return none;
-    const scree_config_stage *stage = &model->stages[state->stage.index];
     const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
     return numbers->sleep ? numbers->sleep(stage->own) : none;
+}
+
+static scree_sleep_limits limits_of(const scree_model *model, const scree_state *state)
+{
+    return state->stage.index < model->stage_count ? limits_in(&model->stages[state->stage.index]) : none;
+}
+
+bool scree_some_may_sleep(const scree_config_stage *stage, int64_t count)
+{
+    for (int64_t k = 0; k < count; k++) {
+        if (stage[k].kind < 0 || !stage[k].own) continue; // wrong, and noted
+        if (!isnan(limits_in(&stage[k]).window)) return true;
+    }
+    return false;
 }
 
 static bool may_sleep(const scree_context *c, const scree_sleep_limits *limits)
@@ -467,14 +480,8 @@ static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, .run = list},
 
 static bool told(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME])
 {
-    bool may = false;
     name[0] = 0;
-    for (int64_t k = 0; k < config->stage_count && index == 0; k++) {
-        if (config->stages[k].kind < 0 || !config->stages[k].own) continue; // wrong, and noted
-        const scree_stage_numbers *numbers = scree_modules[config->stages[k].kind]->numbers;
-        may = may || (numbers->sleep && !isnan(numbers->sleep(config->stages[k].own).window));
-    }
-    return may;
+    return index == 0 && scree_some_may_sleep(config->stages, config->stage_count);
 }
 
 const scree_module scree_module_sleep = {

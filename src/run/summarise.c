@@ -1,6 +1,7 @@
 /// What a case amounts to before it is run: numbers of the model, and what a run of it will take.
 #include "base/handle.h"
 #include "case/case.h"
+#include "integrate/integrate.h"
 #include "run/estimate.h"
 #include "run/quasistatic.h"
 #include "run/simulation.h"
@@ -28,15 +29,6 @@ static double largest_tabor(const scree_model *model)
             if (law->tabor) largest = fmax(largest, law->tabor(&model->pairs[i][j], 0.5 * model->mean_radius));
         }
     return largest > 0 ? largest : NAN;
-}
-
-static bool any_may_sleep(const scree_model *model)
-{
-    for (int64_t k = 0; k < model->stage_count; k++) {
-        const scree_stage_numbers *numbers = scree_modules[model->stages[k].kind]->numbers;
-        if (numbers->sleep && !isnan(numbers->sleep(model->stages[k].own).window)) return true;
-    }
-    return false;
 }
 
 /// What cannot be probed leaves times that are not known; a case that is wrong shows when it is run.
@@ -83,7 +75,7 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
                                     .thickness = model.thickness,
                                     .reference_velocity = model.reference_velocity,
                                     .tabor = largest_tabor(&model),
-                                    .sleeps = any_may_sleep(&model)};
+                                    .sleeps = scree_some_may_sleep(model.stages, model.stage_count)};
     (void)snprintf(summary->name, sizeof summary->name, "%s", c->config.name);
     // Walls that cannot be made are found here.
     scree_wall_set *wall_set;
