@@ -287,15 +287,29 @@ void scree_pile_destroy(scree_pile *pile)
     pile->columns = pile->grains = 0;
 }
 
+/// Height of the surface in a column, 0 where there is no grain; and the part of it that lies between two places.
+static double part_of(const scree_pile *pile, size_t k, double from, double to, double part[2])
+{
+    const double half = 0.5 * (pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0);
+    part[0] = fmax(from, pile->column[k].x - half);
+    part[1] = fmax(part[0], fmin(to, pile->column[k].x + half));
+    return isnan(pile->column[k].height) ? 0 : pile->column[k].height;
+}
+
 void scree_pile_plateau(const scree_pile *pile, double depth, double *left, double *right)
 {
-    *left = *right = NAN;
-    if (pile->columns == 0) return;
-    const double half = 0.5 * (pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0);
-    const size_t ends[2] = {foot(pile, -1), foot(pile, 1)};
-    for (size_t k = ends[0]; k <= ends[1]; k++) {
-        if (!(pile->column[k].height >= pile->top - pile->base - depth)) continue;
-        if (isnan(*left)) *left = pile->column[k].x - half;
-        *right = pile->column[k].x + half;
+    const double from = *left, to = *right;
+    double area = 0, part[2];
+    for (size_t k = 0; k < pile->columns; k++) {
+        const double height = part_of(pile, k, from, to, part);
+        area += height * (part[1] - part[0]);
+    }
+    const double lowest = area / (to - from) - depth;
+    if (!(lowest > 0)) return; // what stands is not lower than that; a point stays one
+    *left = to, *right = from;
+    for (size_t k = 0; k < pile->columns; k++) {
+        if (part_of(pile, k, from, to, part) < lowest || !(part[1] > part[0])) continue;
+        *left = fmin(*left, part[0]);
+        *right = fmax(*right, part[1]);
     }
 }

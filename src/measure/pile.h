@@ -56,8 +56,9 @@ scree_status scree_pile_measure(const scree_model *model, const scree_state *sta
                                 scree_error *error) SCREE_MUST_USE;
 void scree_pile_destroy(scree_pile *pile);
 
-/// Ends of its plateau [m]: the outermost columns of the heap, from the top on, that are not more than `depth` [m]
-/// below it.
+/// Narrows `left` and `right`, the ends of its plateau [m], to the outermost columns between them that are not more
+/// than `depth` [m] below the mean level of the surface there; a column without a grain is as low as the base. Neither
+/// the highest grain nor gaps decide, so that a rough or sparse top keeps its width.
 void scree_pile_plateau(const scree_pile *pile, double depth, double *left, double *right);
 
 #endif

@@ -1,6 +1,8 @@
 /// Births and sources as a module: what is stored of them, and what each source tells. What they do is in pour.c.
 #include "base/checksum.h"
+#include "base/vectors.h"
 #include "source/pour.h"
+#include "source/source.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -72,6 +74,7 @@ static bool told(const scree_config *config, size_t index, char name[SCREE_RESUL
 static const scree_result results[] = {
     {"_born", "1", "particles that the source of this name has poured"},
     {"_layers", "1", "layers that it has filled"},
+    {"_width", "m", "how long the line is, or the first edge of the region, in its present layer; 0 of a point"},
     {"_waits", "1", "births that had to wait because something was in the way"},
     {"_waited", "s", "time that they waited together"},
 };
@@ -79,11 +82,14 @@ static const scree_result results[] = {
 static scree_status tell(const scree_context *c, size_t index, double *value, scree_error *error)
 {
     const scree_source_state *own = &scree_births_of(c->state)->source[index];
+    scree_source_place place;
     (void)error;
+    scree_source_place_now(c->model, &c->model->sources[index], own, scree_state_time(c->state), 0, &place);
     value[0] = (double)own->born;
     value[1] = (double)own->layer;
-    value[2] = (double)own->waits;
-    value[3] = (double)own->waited * c->state->tick;
+    value[2] = place.edges > 0 ? scree_length(place.edge[0]) : 0;
+    value[3] = (double)own->waits;
+    value[4] = (double)own->waited * c->state->tick;
     return SCREE_OK;
 }
 

@@ -1,5 +1,5 @@
-/// A source along a line. In two dimensions it may follow the plateau of the pile, layer by layer: its width is that of
-/// the top, or a little less (R 3.1).
+/// A source along a line. In two dimensions it may follow the plateau of the pile, layer by layer: it is as wide as
+/// that is then, or a little less (R 3.1).
 #include "module/key_rows.h"
 #include "module/source.h"
 
@@ -18,7 +18,7 @@ typedef struct config {
 
 static const scree_choice widths[] = {
     {"fixed", WIDTH_FIXED, "from `start` to `end`"},
-    {"plateau", WIDTH_PLATEAU, "so only for the first layer, and as wide as the top of the pile from the second on"},
+    {"plateau", WIDTH_PLATEAU, "so for the first layer, and as wide as what is left of its plateau from the second on"},
     {0},
 };
 
@@ -29,8 +29,8 @@ static const scree_key keys[] = {
     PLACE(end, "The other end."),
     CHOICE(config, width, widths, .standard = "fixed", .meaning = "How wide it is; 2D."),
     NUMBER(config, plateau_depth, "m", .standard = "auto", ABOVE("0 m"), TO("1 km"), .when = "width=plateau",
-           .meaning = "The plateau ends where the surface of the pile is so far below its top; auto: two mean "
-                      "diameters."),
+           .meaning = "The plateau ends where the surface of the pile is so far below the mean level of the plateau "
+                      "of the layer before; auto: a mean diameter."),
     NUMBER(config, margin, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "width=plateau",
            .meaning = "The line ends so far inside of the plateau, at both sides; auto: a mean radius."),
 };

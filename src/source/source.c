@@ -1,10 +1,10 @@
 /// Places of sources.
 ///
 /// A source that follows the top stands above the highest point that the pile had when its layer began; one that
-/// follows the plateau reaches from end to end of it, less a margin, and keeps what the case gave it until there is a
-/// pile. A plateau narrower than its margins leaves a point in its middle. Its own motion and the shifts of its layers
-/// are added to that: of one that follows the plateau a single shift, since the plateau has moved with the layers that
-/// made it.
+/// follows the plateau reaches from end to end of it, less a margin. The plateau is looked for where it was when the
+/// layer before began (before the second one: where the case has the line), so it never grows wider. One narrower than
+/// its margins leaves a point in its middle. Its own motion and the shifts of its layers are added to that: of one that
+/// follows the plateau a single shift, since the plateau has moved with the layers that made it.
 ///
 /// Random numbers: uniform ones by counter (base/random.h) of the number of the body, so that nothing depends on when
 /// they are drawn, or for which source.
@@ -39,13 +39,20 @@ void scree_source_begin_layer(const scree_model *model, const scree_config_sourc
                               scree_source_state *own)
 {
     scree_source_plateau plateau = {NAN, NAN};
-    own->top = own->left = own->right = NAN;
+    own->top = NAN;
     if (!pile || pile->grains == 0) return;
     own->top = pile->top;
     // The first layer makes the plateau.
     if (own->layer == 0 || !follows_plateau(source, &plateau)) return;
-    const double depth = isnan(plateau.depth) ? 4 * model->mean_radius : plateau.depth;
+    const double depth = isnan(plateau.depth) ? 2 * model->mean_radius : plateau.depth;
     const double margin = isnan(plateau.margin) ? model->mean_radius : plateau.margin;
+    if (isnan(own->left)) {
+        scree_source_place line;
+        kind_of(source)->place(source->own, &line);
+        own->left = fmin(line.origin[0], line.origin[0] + line.edge[0][0]);
+        own->right = fmax(line.origin[0], line.origin[0] + line.edge[0][0]);
+    }
+    own->left -= margin, own->right += margin;
     scree_pile_plateau(pile, depth, &own->left, &own->right);
     const double middle = 0.5 * (own->left + own->right);
     own->left = fmin(own->left + margin, middle);
@@ -58,7 +65,7 @@ void scree_source_place_now(const scree_model *model, const scree_config_source 
     const int up = model->dimension - 1;
     double low = 0;
     kind_of(source)->place(source->own, place);
-    if (!isnan(own->left)) {
+    if (own->begun && !isnan(own->left)) {
         place->origin[0] = own->left;
         place->edge[0][0] = own->right - own->left;
     }

@@ -417,7 +417,9 @@ static void layers_lie_side_by_side(void **unused)
 static void sources_follow(void **unused)
 {
     (void)unused;
-    scree_case *c = case_read(TWO STAGES(", past: take_out"), NULL, 0);
+    // A plate that has room for flanks.
+    static const char *const overrides[] = {"walls.0.lower=[-30 mm, -5 mm]", "walls.0.upper=[30 mm, 0]"};
+    scree_case *c = case_read(TWO STAGES(", past: take_out"), overrides, 2);
     scree_simulation s;
     simulation_open(c, 1, &s);
     uint64_t before = 0, moved = 0;
@@ -534,11 +536,72 @@ static void a_triangle_is_measured(void **unused)
         assert_true(fabs(pile.fitted[side] * 180 / M_PI - 60) < 2);
     }
     assert_true(fabs(pile.weight - 9.81 * 46 * s.state.row[0].mass) < 1e-12 * pile.weight);
-    // The plateau of its second row from above on: three discs wide.
-    double left, right;
-    scree_pile_plateau(&pile, 2.5 * rise, &left, &right);
-    assert_true(fabs(right - left - (2 * pitch + 2 * RADIUS)) <= 2 * RADIUS);
     scree_pile_destroy(&pile);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+/// A plateau of 40 columns with flanks of 45 degrees, grains apart from each other and a heap on it: its ends are those
+/// of what lies less than the depth below the mean, wherever the highest grain is.
+static void a_rough_plateau_keeps_its_width(void **unused)
+{
+    (void)unused;
+    enum { COLUMNS = 60 };
+    scree_pile_column column[COLUMNS];
+    const scree_pile pile = {.column = column, .columns = COLUMNS, .base = 0, .top = 16, .apex = 15.5};
+    for (int k = 0; k < COLUMNS; k++) column[k] = (scree_pile_column){k + 0.5, fmin(10, fmin(k + 1, COLUMNS - k))};
+    for (int k = 10; k < 50; k += 5) column[k].height = column[k + 1].height = column[k + 2].height = NAN;
+    for (int k = 13; k < 18; k++) column[k].height = 16;
+    double mean = 0, left = 5, right = 55;
+    for (int k = 5; k < 55; k++) mean += (isnan(column[k].height) ? 0 : column[k].height) / 50;
+    const double depths[] = {mean - 9.5, mean - 6.5, mean - 0.5};
+    const double ends[] = {9, 6, 5}; // not beyond what it was
+    for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
+        left = 5, right = 55;
+        scree_pile_plateau(&pile, depths[d], &left, &right);
+        assert_true(left == ends[d] && right == COLUMNS - ends[d]);
+    }
+    // Ends need not be those of columns; they stay where the pile is not higher than the depth, or elsewhere.
+    left = 20.25, right = 30.75;
+    scree_pile_plateau(&pile, 1, &left, &right);
+    assert_true(left == 20.25 + 2.75 && right == 30);
+    left = -8, right = 3;
+    scree_pile_plateau(&pile, 1, &left, &right);
+    assert_true(left == -8 && right == 3);
+    left = 70, right = 80;
+    scree_pile_plateau(&pile, 1, &left, &right);
+    assert_true(left == 70 && right == 80);
+}
+
+/// A line as wide as the foot rains to the end: it has become narrow when the last grains come, not at once.
+static void a_line_narrows_layer_by_layer(void **unused)
+{
+    (void)unused;
+    scree_case *c = case_read(
+        HEAD "particles: {shape: disc, material: glass, count: 240, distribution: uniform, radius_min: 0.9 mm, "
+             "radius_max: 1.1 mm}\n" FLOOR(
+                 "0") "sources: [{source: line, name: rain, start: [-50 mm, 4 mm], end: [50 mm, 4 mm], interval: 2 ms,"
+                      " width: plateau, above: 2 mm}]\n"
+                      "stages:\n  - {stage: prepare, method: empty}\n  - {stage: pour}\n",
+        NULL, 0);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    const scree_births *births = scree_births_of(&s.state);
+    const double slope = tan(35 * M_PI / 180);
+    uint64_t layer = 0;
+    double width = 0.1;
+    while (simulation_goes_on(&s) && s.state.next_id < 240) {
+        simulation_step(&s);
+        births = scree_births_of(&s.state);
+        const scree_source_state *rain = &births->source[0];
+        if (rain->layer == layer || rain->in_layer == 0) continue;
+        layer = rain->layer;
+        assert_true(rain->right - rain->left <= width + 1e-12);
+        width = rain->right - rain->left;
+        // Flanks are no flatter than discs with friction lie anyhow, so no end has gone in farther than by its height.
+        assert_true(width > 0.1 - 2 * (rain->top / slope + 4e-3));
+    }
+    assert_true(layer >= 4);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -546,6 +609,8 @@ static void a_triangle_is_measured(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rough_plateau_keeps_its_width),
+        cmocka_unit_test(a_line_narrows_layer_by_layer),
         cmocka_unit_test(what_is_born_falls),
         cmocka_unit_test(the_balance_closes),
         cmocka_unit_test(the_balance_closes_on_a_pile),
