@@ -78,6 +78,10 @@ double scree_plot_largest(const double *value, size_t count);
 /// A number of summary.json; NAN: it is not there.
 double scree_plot_result(const scree_plot_run *run, const char *name);
 
+/// The part of the pile at the end of the run that its figures show [m]: its heap and a tenth of that at both sides.
+/// False: there is no pile.
+bool scree_plot_heap(const scree_plot_run *run, double ends[2]);
+
 /// Strain as text of a file name or a title: whole percents where it is one.
 void scree_plot_percent(char *text, size_t size, double strain, bool name);
 

@@ -20,7 +20,8 @@ typedef struct pile_row {
 } pile_row;
 
 static const pile_row rows[] = {
-    {{"pile-outline", "outline of the pile, and its angles of repose", SCREE_USUAL}, OUTLINE},
+    {{"pile-outline", "outline of the heap, with a tenth of it beside, and its angles of repose", SCREE_USUAL},
+     OUTLINE},
     {{"pile-growth", "height and width of the pile over time", SCREE_USUAL}, GROWTH},
 };
 
@@ -35,6 +36,28 @@ static scree_status applies(const scree_plot_run *run, const scree_figure_job *j
     (void)job;
     if (run->series.row_count > 0) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows", SCREE_FILE_SERIES);
+}
+
+bool scree_plot_heap(const scree_plot_run *run, double ends[2])
+{
+    char file[PATH_MAX];
+    scree_series table = {0};
+    scree_error ignored;
+    ends[0] = INFINITY, ends[1] = -INFINITY;
+    if (!scree_series_get(&run->series, "pile_grains")) return false;
+    scree_status status = scree_path_join(file, sizeof file, run->directory, SCREE_FILE_OUTLINE, &ignored);
+    if (!status) status = scree_series_read(&table, file, &ignored);
+    const double *place = status ? NULL : scree_series_get(&table, "x"),
+                 *heap = status ? NULL : scree_series_get(&table, "heap");
+    for (size_t k = 0; place && heap && k < table.row_count; k++) {
+        if (heap[k] == 0) continue;
+        ends[0] = fmin(ends[0], place[k]);
+        ends[1] = fmax(ends[1], place[k]);
+    }
+    scree_series_destroy(&table);
+    const double beside = 0.1 * (ends[1] - ends[0]);
+    ends[0] -= beside, ends[1] += beside;
+    return ends[0] < ends[1];
 }
 
 /// From foot to apex to foot: the angles by the corners. mm
@@ -76,7 +99,9 @@ static scree_status draw_outline(const scree_plot_run *run, const char *path, sc
 {
     char file[PATH_MAX], title[120];
     scree_series table = {0};
-    double *x = NULL, *y = NULL, fit_x[2][2], fit_y[2][2];
+    double *x = NULL, *y = NULL, fit_x[2][2], fit_y[2][2], ends[2];
+    size_t count = 0;
+    (void)scree_plot_heap(run, ends); // without one all lies beyond
     scree_status status = scree_path_join(file, sizeof file, run->directory, SCREE_FILE_OUTLINE, error);
     if (!status) status = scree_series_read(&table, file, error);
     if (!status && table.row_count == 0)
@@ -84,17 +109,19 @@ static scree_status draw_outline(const scree_plot_run *run, const char *path, sc
     if (!status) status = scree_allocate(&x, table.row_count, sizeof *x, error);
     if (!status) status = scree_allocate(&y, table.row_count, sizeof *y, error);
     for (size_t k = 0; k < table.row_count && !status; k++) {
-        x[k] = 1e3 * scree_series_get(&table, "x")[k];
-        y[k] = 1e3 * scree_series_get(&table, "height")[k];
+        const double place = scree_series_get(&table, "x")[k];
+        if (place < ends[0] || place > ends[1]) continue;
+        x[count] = 1e3 * place;
+        y[count++] = 1e3 * scree_series_get(&table, "height")[k];
     }
     corners c = find_corners(run);
     for (int side = 0; side < 2 && !status; side++) find_fit(run, &table, side ? 1 : -1, fit_x[side], fit_y[side]);
     (void)snprintf(title, sizeof title,
-                   "Outline of the pile: %.1f and %.1f degrees by its corners, %.1f and %.1f by fits",
+                   "Outline of the heap: %.1f and %.1f degrees by its corners, %.1f and %.1f by fits",
                    scree_plot_result(run, "angle_of_repose_left"), scree_plot_result(run, "angle_of_repose_right"),
                    scree_plot_result(run, "angle_of_surface_left"), scree_plot_result(run, "angle_of_surface_right"));
     const scree_chart_line line[] = {
-        {.x = x, .y = y, .count = table.row_count, .label = "surface", .points = true, .bare = true, .colour = 1},
+        {.x = x, .y = y, .count = count, .label = "surface", .points = true, .bare = true, .colour = 1},
         {.x = c.x, .y = c.y, .count = 3, .label = "corners", .colour = 2},
         {.x = fit_x[0], .y = fit_y[0], .count = 2, .label = "fit, left", .dashed = true, .colour = 3},
         {.x = fit_x[1], .y = fit_y[1], .count = 2, .label = "fit, right", .dashed = true, .colour = 4}};

@@ -158,6 +158,7 @@ static scree_status draw_scene(const scree_plot_run *run, const scree_figure_job
     const scene_row *entry = (const scene_row *)job->figure;
     double *field = NULL;
     char label[120] = "";
+    double heap[2];
     scree_status status = SCREE_OK;
     if (entry->field != FIELD_NONE) status = scree_allocate(&field, now->count, sizeof *field, error);
     for (size_t k = 0; field && k < now->count; k++) field[k] = field_value(entry->field, start, now, k);
@@ -172,6 +173,7 @@ static scree_status draw_scene(const scree_plot_run *run, const scree_figure_job
                          .boundary = entry->boundary,
                          .of_cell = run->of_cell,
                          .plates = true};
+    if (entry->view == VIEW_PLANE && entry->when == SCREE_AT_END && scree_plot_heap(run, heap)) scene.shown = heap;
     if (!status)
         status = entry->view == VIEW_PLANE   ? scree_scene_draw(job->path, now, &scene, error)
                  : entry->view == VIEW_SPACE ? scree_plot_space(job->path, now, &scene, error)

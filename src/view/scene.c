@@ -52,6 +52,20 @@ static void extend(scree_scene_view *view, int axis, double low, double high)
     view->high[axis] = fmax(view->high[axis], high);
 }
 
+static bool is_shown(const scree_scene_view *view, size_t k)
+{
+    const double *shown = view->scene->shown, x = view->snapshot->x[k];
+    return !shown || (x >= shown[0] && x <= shown[1]);
+}
+
+/// Nothing of what lies beyond is left in the corners.
+static void cut_extent(scree_scene_view *view)
+{
+    if (!view->scene->shown) return;
+    view->low[0] = fmax(view->low[0], view->scene->shown[0]);
+    view->high[0] = fmin(view->high[0], view->scene->shown[1]);
+}
+
 /// Walls of the case, whole; of planes the part that is drawn, beside the bodies.
 static void extend_by_walls(scree_scene_view *view)
 {
@@ -105,9 +119,10 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
     view->high[0] = view->high[1] = -INFINITY;
     for (size_t k = 0; k < s->count; k++) {
         if (!scree_scene_drawn(s, k)) continue;
+        view->disc_count++;
+        if (!is_shown(view, k)) continue;
         extend(view, 0, s->x[k] - s->radius[k], s->x[k] + s->radius[k]);
         extend(view, 1, s->y[k] - s->radius[k], s->y[k] + s->radius[k]);
-        view->disc_count++;
         view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
     }
     const scree_projection *projection = view->scene->projection;
@@ -132,6 +147,7 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         double place = wall->position * wall->normal[axis];
         if (place > view->low[axis] - size / 4 && place < view->high[axis] + size / 4) extend(view, axis, place, place);
     }
+    cut_extent(view);
     if (view->scene->frame) share_extent(view, view->scene->frame);
     return SCREE_OK;
 }
@@ -269,7 +285,7 @@ static const char *kind_of(const scree_scene_view *view)
 static void write_caption(scree_scene_view *view)
 {
     const scree_snapshot *s = view->snapshot;
-    char strain[48] = "", time[48] = "", left_out[64] = "", number[32];
+    char strain[48] = "", time[48] = "", left_out[64] = "", beyond[64] = "", number[32];
     if (isfinite(s->axial_strain))
         (void)snprintf(strain, sizeof strain, ", %s %.2f %%", scree_strain_name(view->scene->of_cell),
                        100 * s->axial_strain);
@@ -278,10 +294,15 @@ static void write_caption(scree_scene_view *view)
     if (view->disc_count < s->count && !view->scene->section)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
     // The bodies of a membrane are drawn too, but are no grains.
-    size_t grains = 0;
-    for (size_t k = 0; k < s->count; k++) grains += scree_snapshot_is_grain(s, k) && scree_scene_drawn(s, k);
-    (void)snprintf(view->caption, sizeof view->caption, "%s%zu %s%s%s%s%s", view->scene->section ? "section, " : "",
-                   grains, kind_of(view), grains == 1 ? "" : "s", left_out, strain, time);
+    size_t grains = 0, outside = 0;
+    for (size_t k = 0; k < s->count; k++) {
+        const bool grain = scree_snapshot_is_grain(s, k) && scree_scene_drawn(s, k);
+        grains += grain;
+        outside += grain && !is_shown(view, k);
+    }
+    if (outside > 0) (void)snprintf(beyond, sizeof beyond, ", %zu of them beyond the picture", outside);
+    (void)snprintf(view->caption, sizeof view->caption, "%s%zu %s%s%s%s%s%s", view->scene->section ? "section, " : "",
+                   grains, kind_of(view), grains == 1 ? "" : "s", beyond, left_out, strain, time);
 }
 
 /// Title and caption from the top margin; returns the y below them.

@@ -27,6 +27,7 @@ typedef struct scree_scene {
     bool plates;
     bool of_cell;                    ///< the strain in the caption is that of a periodic cell
     const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
+    const double *shown;             ///< m, from x to x: what lies beyond is left out, and told; NULL: all is shown
     bool section;                    ///< discs are cuts of spheres; those that are not cut are not missed
     const double *depth;             ///< per disc, m towards the viewer: discs are spheres, far ones first; NULL: flat
     const struct scree_projection *projection; ///< where the plates of a view in space lie; NULL: flat

@@ -373,6 +373,11 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         draw_periodic_edges(view, cairo);
         return;
     }
+    cairo_save(cairo);
+    if (view->scene->shown) {
+        cairo_rectangle(cairo, view->left - 2, 0, view->width + 4, view->page_height);
+        cairo_clip(cairo);
+    }
     draw_plates(view, cairo);
     draw_walls(view, cairo);
     if (view->scene->cells)
@@ -385,4 +390,5 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
     draw_network(view, cairo);
     draw_marked(view, cairo);
     draw_arrows(view, cairo);
+    cairo_restore(cairo);
 }
