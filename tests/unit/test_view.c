@@ -319,6 +319,29 @@ static void discs_are_round_and_have_their_colour(void **state)
     hand_made_destroy(&s);
 }
 
+/// A disc far away does not make the others small where only a part is shown, and one beyond it is not drawn.
+static void what_is_not_shown_takes_no_room(void **state)
+{
+    (void)state;
+    scree_snapshot s;
+    hand_made_create(&s, 4, 0, 0);
+    const double place[4] = {0, 3e-3, 5.2e-3, 1}, field[4] = {0, 1, 2, NAN}, shown[2] = {-3e-3, 5e-3};
+    for (int k = 0; k < 4; k++) {
+        s.x[k] = place[k];
+        s.radius[k] = 1e-3;
+    }
+    assert_draws("part", &s, &(scree_scene){.title = "Part", .field = field, .field_name = "value", .shown = shown});
+    picture p = picture_read("part.png");
+    int width, height;
+    // The sample ends before, the colour bar begins behind 0.59 of the page.
+    picture_extent(&p, scree_colour_at(SCREE_COLOUR_SEQUENTIAL, 0.5), 0.59, &width, &height);
+    assert_true(width > 100 && abs(width - height) <= 2);
+    picture_extent(&p, scree_colour_at(SCREE_COLOUR_SEQUENTIAL, 1), 0.59, &width, &height);
+    assert_true(width <= 0);
+    cairo_surface_destroy(p.surface);
+    hand_made_destroy(&s);
+}
+
 static void extreme_snapshots_are_drawn(void **state)
 {
     (void)state;
@@ -647,6 +670,7 @@ int main(void)
         cmocka_unit_test(scene_of_every_kind_is_written),
         cmocka_unit_test(large_scene_is_a_small_file),
         cmocka_unit_test(discs_are_round_and_have_their_colour),
+        cmocka_unit_test(what_is_not_shown_takes_no_room),
         cmocka_unit_test(extreme_snapshots_are_drawn),
         cmocka_unit_test(damaged_snapshots_are_drawn),
         cmocka_unit_test(very_many_marks_are_pixels),
