@@ -14,8 +14,9 @@ typedef struct scree_source_place {
 
 /// How a source follows the flat top of a pile.
 typedef struct scree_source_plateau {
-    double depth;  ///< m, it ends where the surface is so far below the top; NAN: two mean diameters
+    double depth;  ///< m, it ends where the surface is so far below its mean level; NAN: a mean diameter
     double margin; ///< m, the source ends so far inside of it; NAN: a mean radius
+    bool stops;    ///< the source has no more grains when it is used up
 } scree_source_plateau;
 
 /// `keys`: the module's struct.

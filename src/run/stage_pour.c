@@ -168,7 +168,8 @@ static void control(scree_simulation *s)
 static const char *const ends[SCREE_POUR_ENDS] = {[SCREE_POUR_COUNT] = "as many as the stage wants",
                                                   [SCREE_POUR_OUT] = "no more are left",
                                                   [SCREE_POUR_HEIGHT] = "the pile is as high as wanted",
-                                                  [SCREE_POUR_WIDTH] = "the pile is as wide as wanted"};
+                                                  [SCREE_POUR_WIDTH] = "the pile is as wide as wanted",
+                                                  [SCREE_POUR_PLATEAU] = "the plateau of a source is used up"};
 
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {

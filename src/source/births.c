@@ -40,7 +40,7 @@ static const scree_field fields[] = {
     ONE(in_stage, "particles born in the present stage", SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE(end,
         "0: sources pour; else why they have stopped in this stage: 1 its count, 2 no particles left, 3 height, 4 "
-        "width of the pile",
+        "width of the pile, 5 the plateau of a source is used up",
         SCREE_RANGE(0, SCREE_POUR_ENDS - 1)),
     ONE(ended, "step at which they stopped", SCREE_RANGE_TO(SCREE_LIMIT_STEP)),
     ONE(lost, "particles taken out because they had fallen past everything that stands",

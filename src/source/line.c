@@ -8,17 +8,25 @@
 #include <string.h>
 
 enum { WIDTH_FIXED, WIDTH_PLATEAU };
+enum { PAST_POINT, PAST_STOP };
 
 typedef struct config {
     double start[3], end[3]; ///< m
     int width;               ///< WIDTH_...
     double plateau_depth;    ///< m
     double margin;           ///< m
+    int past_plateau;        ///< PAST_...
 } config;
 
 static const scree_choice widths[] = {
     {"fixed", WIDTH_FIXED, "from `start` to `end`"},
     {"plateau", WIDTH_PLATEAU, "so for the first layer, and as wide as what is left of its plateau from the second on"},
+    {0},
+};
+
+static const scree_choice pasts[] = {
+    {"point", PAST_POINT, "a point in the middle of what is left"},
+    {"stop", PAST_STOP, "nothing: it has no more particles"},
     {0},
 };
 
@@ -33,6 +41,8 @@ static const scree_key keys[] = {
                       "of the layer before; auto: a mean diameter."),
     NUMBER(config, margin, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "width=plateau",
            .meaning = "The line ends so far inside of the plateau, at both sides; auto: a mean radius."),
+    CHOICE(config, past_plateau, pasts, .standard = "point", .when = "width=plateau",
+           .meaning = "What is left of the line when fewer than two particles have room on its plateau side by side."),
 };
 
 static const char *wrong(const void *own, int dimension, const char **key)
@@ -62,7 +72,8 @@ static void place(const void *own, scree_source_place *place)
 static bool follows(const void *own, scree_source_plateau *plateau)
 {
     const config *c = own;
-    *plateau = (scree_source_plateau){.depth = c->plateau_depth, .margin = c->margin};
+    *plateau =
+        (scree_source_plateau){.depth = c->plateau_depth, .margin = c->margin, .stops = c->past_plateau == PAST_STOP};
     return c->width == WIDTH_PLATEAU;
 }
 

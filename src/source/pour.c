@@ -246,6 +246,7 @@ static uint64_t left_for(const step *s, int64_t index)
 {
     const scree_config_source *source = &s->c->model->sources[index];
     uint64_t left = s->c->model->count - s->c->state->next_id;
+    if (scree_source_used_up(s->c->model, source, &s->births->source[index])) return 0;
     if (s->stage->count > 0 && (uint64_t)s->stage->count - s->births->in_stage < left)
         left = (uint64_t)s->stage->count - s->births->in_stage;
     if (source->count > 0 && (uint64_t)source->count - s->births->source[index].born < left)
@@ -364,6 +365,7 @@ static scree_status pour_source(step *s, int64_t index, scree_error *error)
     if (looks_at_pile(source, own)) {
         if ((status = measure_pile(s, error))) return status;
         scree_source_begin_layer(c->model, source, &s->pile, own);
+        if (left_for(s, index) == 0) return SCREE_OK;
     }
     return pour_next(s, index, error);
 }
@@ -390,13 +392,24 @@ static due find_due(const step *s)
     return found;
 }
 
+/// Why the sources of the stage have no grains left.
+static scree_pour_end why_no_more(const step *s)
+{
+    const scree_model *model = s->c->model;
+    if (s->stage->count > 0 && s->births->in_stage >= (uint64_t)s->stage->count) return SCREE_POUR_COUNT;
+    for (int64_t k = 0; k < model->source_count && s->c->state->next_id < (uint64_t)model->count; k++)
+        if (scree_source_pours_in(model, k, s->c->state->stage.index) &&
+            scree_source_used_up(model, &model->sources[k], &s->births->source[k]))
+            return SCREE_POUR_PLATEAU;
+    return SCREE_POUR_OUT;
+}
+
 static scree_status pour_due(step *s, scree_error *error)
 {
     const due found = find_due(s);
     scree_status status = SCREE_OK;
     if (!found.more)
-        end(s, s->stage->count > 0 && s->births->in_stage >= (uint64_t)s->stage->count ? SCREE_POUR_COUNT
-                                                                                       : SCREE_POUR_OUT);
+        end(s, why_no_more(s));
     else if (found.fresh)
         status = check_extent(s, error);
     for (int64_t k = 0; k < s->c->model->source_count && found.now && !status; k++)

@@ -38,7 +38,7 @@ bool scree_source_follows(const scree_config_source *source)
 void scree_source_begin_layer(const scree_model *model, const scree_config_source *source, const scree_pile *pile,
                               scree_source_state *own)
 {
-    scree_source_plateau plateau = {NAN, NAN};
+    scree_source_plateau plateau = {NAN, NAN, false};
     own->top = NAN;
     if (!pile || pile->grains == 0) return;
     own->top = pile->top;
@@ -57,6 +57,13 @@ void scree_source_begin_layer(const scree_model *model, const scree_config_sourc
     const double middle = 0.5 * (own->left + own->right);
     own->left = fmin(own->left + margin, middle);
     own->right = fmax(own->right - margin, middle);
+}
+
+bool scree_source_used_up(const scree_model *model, const scree_config_source *source, const scree_source_state *own)
+{
+    scree_source_plateau plateau;
+    return own->begun && !isnan(own->left) && follows_plateau(source, &plateau) && plateau.stops &&
+           own->right - own->left < 4 * model->mean_radius;
 }
 
 void scree_source_place_now(const scree_model *model, const scree_config_source *source, const scree_source_state *own,

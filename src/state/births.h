@@ -11,6 +11,7 @@ typedef enum scree_pour_end {
     SCREE_POUR_OUT,    ///< the case has no more particles, or no source has
     SCREE_POUR_HEIGHT, ///< the pile is as high as the stage wants
     SCREE_POUR_WIDTH,
+    SCREE_POUR_PLATEAU, ///< so has the plateau of a source that stops then
     SCREE_POUR_ENDS
 } scree_pour_end;
 

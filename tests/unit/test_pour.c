@@ -573,17 +573,17 @@ static void a_rough_plateau_keeps_its_width(void **unused)
     assert_true(left == 70 && right == 80);
 }
 
+#define RAIN                                                                                                           \
+    HEAD "particles: {shape: disc, material: glass, count: 240, distribution: uniform, radius_min: 0.9 mm, "           \
+         "radius_max: 1.1 mm}\n" FLOOR(                                                                                \
+             "0") "sources: [{source: line, name: rain, start: [-50 mm, 4 mm], end: [50 mm, 4 mm], interval: 2 ms,"    \
+                  " width: plateau, above: 2 mm}]\n" STAGES("")
+
 /// A line as wide as the foot rains to the end: it has become narrow when the last grains come, not at once.
 static void a_line_narrows_layer_by_layer(void **unused)
 {
     (void)unused;
-    scree_case *c = case_read(
-        HEAD "particles: {shape: disc, material: glass, count: 240, distribution: uniform, radius_min: 0.9 mm, "
-             "radius_max: 1.1 mm}\n" FLOOR(
-                 "0") "sources: [{source: line, name: rain, start: [-50 mm, 4 mm], end: [50 mm, 4 mm], interval: 2 ms,"
-                      " width: plateau, above: 2 mm}]\n"
-                      "stages:\n  - {stage: prepare, method: empty}\n  - {stage: pour}\n",
-        NULL, 0);
+    scree_case *c = case_read(RAIN, NULL, 0);
     scree_simulation s;
     simulation_open(c, 1, &s);
     const scree_births *births = scree_births_of(&s.state);
@@ -602,6 +602,17 @@ static void a_line_narrows_layer_by_layer(void **unused)
         assert_true(width > 0.1 - 2 * (rain->top / slope + 4e-3));
     }
     assert_true(layer >= 4);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+    // One that stops has poured what its plateau takes, and the stage says so.
+    static const char *const stop[] = {"sources.0.past_plateau=stop", "particles.count=2000"};
+    c = case_read(RAIN, stop, 2);
+    simulation_open(c, 1, &s);
+    (void)simulation_finish(&s);
+    births = scree_births_of(&s.state);
+    width = births->source[0].right - births->source[0].left;
+    assert_int_equal(births->end, SCREE_POUR_PLATEAU);
+    assert_true(s.state.next_id > 240 && s.state.next_id < 2000 && width < 4e-3 && births->source[0].in_layer == 0);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
