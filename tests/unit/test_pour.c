@@ -605,14 +605,15 @@ static void a_line_narrows_layer_by_layer(void **unused)
     scree_simulation_close(&s);
     scree_case_free(c);
     // One that stops has poured what its plateau takes, and the stage says so.
-    static const char *const stop[] = {"sources.0.past_plateau=stop", "particles.count=2000"};
-    c = case_read(RAIN, stop, 2);
+    static const char *const stop[] = {"sources.0.past_plateau=stop", "sources.0.start=[-8 mm, 4 mm]",
+                                       "sources.0.end=[8 mm, 4 mm]", "sources.0.interval=10 ms"};
+    c = case_read(RAIN, stop, 4);
     simulation_open(c, 1, &s);
     (void)simulation_finish(&s);
     births = scree_births_of(&s.state);
     width = births->source[0].right - births->source[0].left;
     assert_int_equal(births->end, SCREE_POUR_PLATEAU);
-    assert_true(s.state.next_id > 240 && s.state.next_id < 2000 && width < 4e-3 && births->source[0].in_layer == 0);
+    assert_true(s.state.next_id > 40 && s.state.next_id < 240 && width < 4e-3 && births->source[0].in_layer == 0);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
