@@ -25,7 +25,7 @@ static const scree_choice widths[] = {
 };
 
 static const scree_choice pasts[] = {
-    {"point", PAST_POINT, "a point in the middle of what is left"},
+    {"point", PAST_POINT, "what its plateau has, down to a point"},
     {"stop", PAST_STOP, "nothing: it has no more particles"},
     {0},
 };
@@ -42,7 +42,8 @@ static const scree_key keys[] = {
     NUMBER(config, margin, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "width=plateau",
            .meaning = "The line ends so far inside of the plateau, at both sides; auto: a mean radius."),
     CHOICE(config, past_plateau, pasts, .standard = "point", .when = "width=plateau",
-           .meaning = "What is left of the line when fewer than two particles have room on its plateau side by side."),
+           .meaning =
+               "What is left of the line when no more than three particles of the mean size lie side by side in it."),
 };
 
 static const char *wrong(const void *own, int dimension, const char **key)

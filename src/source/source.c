@@ -59,11 +59,14 @@ void scree_source_begin_layer(const scree_model *model, const scree_config_sourc
     own->right = fmax(own->right - margin, middle);
 }
 
+/// Diameters; widths are whole columns of a radius, so that it has to be more than a whole number.
+static const double USED_UP = 3 + 1e-6;
+
 bool scree_source_used_up(const scree_model *model, const scree_config_source *source, const scree_source_state *own)
 {
     scree_source_plateau plateau;
     return own->begun && !isnan(own->left) && follows_plateau(source, &plateau) && plateau.stops &&
-           own->right - own->left < 4 * model->mean_radius;
+           own->right - own->left < USED_UP * 2 * model->mean_radius;
 }
 
 void scree_source_place_now(const scree_model *model, const scree_config_source *source, const scree_source_state *own,

@@ -20,7 +20,7 @@ bool scree_source_follows(const scree_config_source *source);
 void scree_source_begin_layer(const scree_model *model, const scree_config_source *source, const scree_pile *pile,
                               scree_source_state *own);
 
-/// Whether it has no more grains because its plateau has no room for two of them side by side.
+/// Whether it has no more grains because no more than three of the mean size lie side by side on its plateau.
 bool scree_source_used_up(const scree_model *model, const scree_config_source *source, const scree_source_state *own);
 
 /// Its place at `time` [s], for a grain that reaches so far from its centre.

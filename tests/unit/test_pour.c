@@ -613,7 +613,7 @@ static void a_line_narrows_layer_by_layer(void **unused)
     births = scree_births_of(&s.state);
     width = births->source[0].right - births->source[0].left;
     assert_int_equal(births->end, SCREE_POUR_PLATEAU);
-    assert_true(s.state.next_id > 40 && s.state.next_id < 240 && width < 4e-3 && births->source[0].in_layer == 0);
+    assert_true(s.state.next_id > 40 && s.state.next_id < 240 && width < 6.1e-3 && births->source[0].in_layer == 0);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
