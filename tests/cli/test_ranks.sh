@@ -148,7 +148,7 @@ selections: [{select: ids, name: bar, ids: [0, 1]}]
 loads: [{load: outlet, lower: [6 mm, -20 mm], upper: [40 mm, -2 mm], every: 20}, {load: prescribed, selection: bar, velocity_x: 50 mm/s, velocity_y: 0, spin_z: 0}]
 sources:
   - {source: point, name: spout, place: [1 mm, 12 mm], interval: 2 ms, velocity: [0, -0.3], spread: [0.1, 0]}
-  - {source: line, name: row, start: [-4 mm, 10 mm], end: [-1 mm, 10 mm], interval: 3 ms, velocity: [0.1, -0.2], width: plateau, above: 6 mm, layer: 4}
+  - {source: line, name: row, start: [-4 mm, 10 mm], end: [-1 mm, 10 mm], interval: 3 ms, velocity: [-0.1, -0.2], width: plateau, above: 6 mm, layer: 4}
 stages:
   - {stage: prepare, method: bodies, bodies: [{position: [-12 mm, -8 mm], radius: 1 mm}, {position: [-14 mm, -6 mm], radius: 1 mm}]}
   - {stage: pour, past: take_out, unbalanced_limit: 0.5, rest_time: 8 ms}
