@@ -157,6 +157,12 @@ static scree_status make_columns(const scree_model *model, const scree_state *st
     return status;
 }
 
+/// m; 0 with a single one.
+static double column_width(const scree_pile *pile)
+{
+    return pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0;
+}
+
 /// The column that a place lies in.
 static size_t column_of(const scree_pile *pile, double x)
 {
@@ -197,8 +203,7 @@ static double fit(const scree_pile *pile, size_t from, size_t to, int step)
 
 static void find_angles(scree_pile *pile)
 {
-    const double height = pile->top - pile->base,
-                 half = 0.5 * (pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0);
+    const double height = pile->top - pile->base, half = 0.5 * column_width(pile);
     const size_t apex = column_of(pile, pile->apex), left = foot(pile, -1), right = foot(pile, 1);
     pile->left = pile->column[left].x - half;
     pile->right = pile->column[right].x + half;
@@ -213,7 +218,7 @@ static void find_angles(scree_pile *pile)
 /// Area under the surface of the heap [m2].
 static double area_under(const scree_pile *pile)
 {
-    const double width = pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0;
+    const double width = column_width(pile);
     double area = 0;
     for (size_t k = 0; k < pile->columns; k++)
         if (pile->column[k].x > pile->left && pile->column[k].x < pile->right && !isnan(pile->column[k].height))
@@ -290,7 +295,7 @@ void scree_pile_destroy(scree_pile *pile)
 /// Height of the surface in a column, 0 where there is no grain; and the part of it that lies between two places.
 static double part_of(const scree_pile *pile, size_t k, double from, double to, double part[2])
 {
-    const double half = 0.5 * (pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0);
+    const double half = 0.5 * column_width(pile);
     part[0] = fmax(from, pile->column[k].x - half);
     part[1] = fmax(part[0], fmin(to, pile->column[k].x + half));
     return isnan(pile->column[k].height) ? 0 : pile->column[k].height;

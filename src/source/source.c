@@ -62,10 +62,16 @@ void scree_source_begin_layer(const scree_model *model, const scree_config_sourc
 /// Diameters; widths are whole columns of a radius, so that it has to be more than a whole number.
 static const double USED_UP = 3 + 1e-6;
 
+/// Whether it is where its plateau was when its layer began.
+static bool is_on_plateau(const scree_source_state *own)
+{
+    return own->begun && !isnan(own->left);
+}
+
 bool scree_source_used_up(const scree_model *model, const scree_config_source *source, const scree_source_state *own)
 {
     scree_source_plateau plateau;
-    return own->begun && !isnan(own->left) && follows_plateau(source, &plateau) && plateau.stops &&
+    return is_on_plateau(own) && follows_plateau(source, &plateau) && plateau.stops &&
            own->right - own->left < USED_UP * 2 * model->mean_radius;
 }
 
@@ -75,11 +81,11 @@ void scree_source_place_now(const scree_model *model, const scree_config_source 
     const int up = model->dimension - 1;
     double low = 0;
     kind_of(source)->place(source->own, place);
-    if (own->begun && !isnan(own->left)) {
+    if (is_on_plateau(own)) {
         place->origin[0] = own->left;
         place->edge[0][0] = own->right - own->left;
     }
-    const double since = own->begun ? time - own->start : 0, shifts = isnan(own->left) ? (double)own->layer : 1;
+    const double since = own->begun ? time - own->start : 0, shifts = is_on_plateau(own) ? 1 : (double)own->layer;
     for (int c = 0; c < 3; c++) place->origin[c] += since * source->motion[c] + shifts * source->shift[c];
     if (isnan(source->above) || isnan(own->top)) return;
     for (int e = 0; e < place->edges; e++) low += fmin(0, place->edge[e][up]);

@@ -38,26 +38,36 @@ static scree_status applies(const scree_plot_run *run, const scree_figure_job *j
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows", SCREE_FILE_SERIES);
 }
 
-bool scree_plot_heap(const scree_plot_run *run, double ends[2])
+/// Ends of the heap and a tenth of it at both sides. False: the table has none.
+static bool find_heap(const scree_series *table, double ends[2])
 {
-    char file[PATH_MAX];
-    scree_series table = {0};
-    scree_error ignored;
+    const double *place = scree_series_get(table, "x"), *heap = scree_series_get(table, "heap");
     ends[0] = INFINITY, ends[1] = -INFINITY;
-    if (!scree_series_get(&run->series, "pile_grains")) return false;
-    scree_status status = scree_path_join(file, sizeof file, run->directory, SCREE_FILE_OUTLINE, &ignored);
-    if (!status) status = scree_series_read(&table, file, &ignored);
-    const double *place = status ? NULL : scree_series_get(&table, "x"),
-                 *heap = status ? NULL : scree_series_get(&table, "heap");
-    for (size_t k = 0; place && heap && k < table.row_count; k++) {
+    for (size_t k = 0; place && heap && k < table->row_count; k++) {
         if (heap[k] == 0) continue;
         ends[0] = fmin(ends[0], place[k]);
         ends[1] = fmax(ends[1], place[k]);
     }
-    scree_series_destroy(&table);
     const double beside = 0.1 * (ends[1] - ends[0]);
     ends[0] -= beside, ends[1] += beside;
     return ends[0] < ends[1];
+}
+
+static scree_status read_outline(const scree_plot_run *run, scree_series *table, scree_error *error)
+{
+    char file[PATH_MAX];
+    scree_status status = scree_path_join(file, sizeof file, run->directory, SCREE_FILE_OUTLINE, error);
+    return status ? status : scree_series_read(table, file, error);
+}
+
+bool scree_plot_heap(const scree_plot_run *run, double ends[2])
+{
+    scree_series table = {0};
+    scree_error ignored;
+    if (!scree_series_get(&run->series, "pile_grains")) return false;
+    const bool found = !read_outline(run, &table, &ignored) && find_heap(&table, ends);
+    scree_series_destroy(&table);
+    return found;
 }
 
 /// From foot to apex to foot: the angles by the corners. mm
@@ -97,17 +107,16 @@ static void find_fit(const scree_plot_run *run, const scree_series *table, int s
 
 static scree_status draw_outline(const scree_plot_run *run, const char *path, scree_error *error)
 {
-    char file[PATH_MAX], title[120];
+    char title[120];
     scree_series table = {0};
     double *x = NULL, *y = NULL, fit_x[2][2], fit_y[2][2], ends[2];
     size_t count = 0;
-    (void)scree_plot_heap(run, ends); // without one all lies beyond
-    scree_status status = scree_path_join(file, sizeof file, run->directory, SCREE_FILE_OUTLINE, error);
-    if (!status) status = scree_series_read(&table, file, error);
+    scree_status status = read_outline(run, &table, error);
     if (!status && table.row_count == 0)
         status = scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows", SCREE_FILE_OUTLINE);
     if (!status) status = scree_allocate(&x, table.row_count, sizeof *x, error);
     if (!status) status = scree_allocate(&y, table.row_count, sizeof *y, error);
+    (void)find_heap(&table, ends); // without one all lies beyond
     for (size_t k = 0; k < table.row_count && !status; k++) {
         const double place = scree_series_get(&table, "x")[k];
         if (place < ends[0] || place > ends[1]) continue;

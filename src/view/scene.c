@@ -120,10 +120,10 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
     for (size_t k = 0; k < s->count; k++) {
         if (!scree_scene_drawn(s, k)) continue;
         view->disc_count++;
+        view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
         if (!is_shown(view, k)) continue;
         extend(view, 0, s->x[k] - s->radius[k], s->x[k] + s->radius[k]);
         extend(view, 1, s->y[k] - s->radius[k], s->y[k] + s->radius[k]);
-        view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
     }
     const scree_projection *projection = view->scene->projection;
     view->periodic = projection ? projection->periodic : scree_periodic_edges_of(s);

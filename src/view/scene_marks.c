@@ -305,15 +305,21 @@ void scree_scene_arrow(const scree_scene_view *view, cairo_t *cairo, double x, d
     cairo_close_path(cairo);
 }
 
+/// Until cairo_restore nothing is drawn beyond the sample and its overhang.
+static void clip_to_sample(const scree_scene_view *view, cairo_t *cairo)
+{
+    cairo_save(cairo);
+    cairo_rectangle(cairo, view->left - 2, view->top - 2, view->width + 4, view->height + 4);
+    cairo_clip(cairo);
+}
+
 static void draw_arrows(const scree_scene_view *view, cairo_t *cairo)
 {
     const scree_scene *scene = view->scene;
     const scree_snapshot *s = view->snapshot;
     if (view->arrow_scale <= 0) return;
     double stretch = view->arrow_scale * view->scale;
-    cairo_save(cairo);
-    cairo_rectangle(cairo, view->left - 2, view->top - 2, view->width + 4, view->height + 4);
-    cairo_clip(cairo);
+    clip_to_sample(view, cairo);
     for (size_t k = 0; k < s->count; k++)
         if (scree_scene_drawn(s, k) && isfinite(scene->arrow_x[k]) && isfinite(scene->arrow_y[k]))
             scree_scene_arrow(view, cairo, scree_scene_x(view, s->x[k]), scree_scene_y(view, s->y[k]),
@@ -328,9 +334,7 @@ static void draw_walls(const scree_scene_view *view, cairo_t *cairo)
 {
     const scree_snapshot *s = view->snapshot;
     if (s->wall_line_count + s->wall_triangle_count == 0) return;
-    cairo_save(cairo);
-    cairo_rectangle(cairo, view->left - 2, view->top - 2, view->width + 4, view->height + 4);
-    cairo_clip(cairo);
+    clip_to_sample(view, cairo);
     for (size_t k = 0; k < s->wall_line_count; k++) {
         const double *line = &s->wall_line[4 * k];
         cairo_move_to(cairo, scree_scene_x(view, line[0]), scree_scene_y(view, line[1]));
@@ -373,11 +377,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         draw_periodic_edges(view, cairo);
         return;
     }
-    cairo_save(cairo);
-    if (view->scene->shown) {
-        cairo_rectangle(cairo, view->left - 2, 0, view->width + 4, view->page_height);
-        cairo_clip(cairo);
-    }
+    if (view->scene->shown) clip_to_sample(view, cairo);
     draw_plates(view, cairo);
     draw_walls(view, cairo);
     if (view->scene->cells)
@@ -390,5 +390,5 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
     draw_network(view, cairo);
     draw_marked(view, cairo);
     draw_arrows(view, cairo);
-    cairo_restore(cairo);
+    if (view->scene->shown) cairo_restore(cairo);
 }

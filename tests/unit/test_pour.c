@@ -536,6 +536,12 @@ static void a_triangle_is_measured(void **unused)
         assert_true(fabs(pile.fitted[side] * 180 / M_PI - 60) < 2);
     }
     assert_true(fabs(pile.weight - 9.81 * 46 * s.state.row[0].mass) < 1e-12 * pile.weight);
+    // What lies less than two rows and a half below the top: its second row from above on, three discs wide.
+    double left = pile.left, right = pile.right, area = 0;
+    for (size_t k = 0; k < pile.columns; k++)
+        if (pile.column[k].x > left && pile.column[k].x < right) area += RADIUS * pile.column[k].height;
+    scree_pile_plateau(&pile, area / (right - left) - (height - 2.5 * rise), &left, &right);
+    assert_true(fabs(right - left - (2 * pitch + 2 * RADIUS)) <= 2 * RADIUS);
     scree_pile_destroy(&pile);
     scree_simulation_close(&s);
     scree_case_free(c);

@@ -325,7 +325,7 @@ static void what_is_not_shown_takes_no_room(void **state)
     (void)state;
     scree_snapshot s;
     hand_made_create(&s, 4, 0, 0);
-    const double place[4] = {0, 3e-3, 5.2e-3, 1}, field[4] = {0, 1, 2, NAN}, shown[2] = {-3e-3, 5e-3};
+    const double place[4] = {1, 0, 3e-3, 5.2e-3}, field[4] = {NAN, 0, 1, 2}, shown[2] = {-3e-3, 5e-3};
     for (int k = 0; k < 4; k++) {
         s.x[k] = place[k];
         s.radius[k] = 1e-3;
@@ -336,6 +336,8 @@ static void what_is_not_shown_takes_no_room(void **state)
     // The sample ends before, the colour bar begins behind 0.59 of the page.
     picture_extent(&p, scree_colour_at(SCREE_COLOUR_SEQUENTIAL, 0.5), 0.59, &width, &height);
     assert_true(width > 100 && abs(width - height) <= 2);
+    // Radii of 30 pt, the largest there are, on a page of 288 pt: the mean radius is that of all.
+    assert_true(fabs((double)width / p.width - 60.0 / 288) < 0.01);
     picture_extent(&p, scree_colour_at(SCREE_COLOUR_SEQUENTIAL, 1), 0.59, &width, &height);
     assert_true(width <= 0);
     cairo_surface_destroy(p.surface);
