@@ -4,14 +4,16 @@
 ///
 /// Falls asleep: what touches something, is not prescribed, and has for `window` been quiet: its resultant force was
 /// below `force` times its weight, its resultant torque below that times its radius, and its surface so slow that it
-/// would have gone no farther than `motion` radii in the window. It is looked at every FALL_EVERY steps. Its velocity
+/// would have gone no farther than `motion` radii in the window. It is looked at every LOOK_EVERY steps. Its velocity
 /// is taken away, and the kinetic energy accumulated in the ledger; so is what a scheme counts of one that wakes.
 ///
 /// Wakes: what something that is awake, a wall or a load acts on so that the mean of its resultant (with its weight and
 /// what others that sleep exert) over the last window, fading exponentially, exceeds `wake` times its weight: it would
 /// have been given that momentum. The mean is taken in every step, and looked at every WAKE_EVERY, one by one, so that
-/// a push runs through a pile as far as it is strong. All wake when gravity changes, when the sources have stopped, and
-/// when another stage begins.
+/// a push runs through a pile as far as it is strong. Every LOOK_EVERY steps wakes, too, what has lost a contact since
+/// the look before, one that it had when it fell asleep or with what came to rest beside it later, and what others that
+/// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well. All wake when
+/// gravity changes, when the sources have stopped, and when another stage begins.
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
@@ -20,7 +22,7 @@
 ///
 /// An approximation: pushes below `wake` do not pass what sleeps, and motion below `force` and `motion` stops; momentum
 /// is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md. Cost: 0.5 ns a body
-/// that sleeps, 20 ns one that is pushed, or awake (every FALL_EVERY steps); 2 ns a pair of neighbours when one falls
+/// that sleeps, 20 ns one that is pushed, or awake (every LOOK_EVERY steps); 2 ns a pair of neighbours when one falls
 /// asleep or wakes (search/sections.c).
 #include "state/sleep.h"
 
@@ -39,11 +41,11 @@
 #include <math.h>
 #include <string.h>
 
-/// Steps from one time at which some wake, or fall asleep, to the next: each looks at all pairs.
-enum { WAKE_EVERY = 16, FALL_EVERY = 128 };
+/// Steps from one time at which some wake, or all are looked at, to the next: each change looks at all pairs.
+enum { WAKE_EVERY = 16, LOOK_EVERY = 128 };
 /// Rows that are looked at together.
 enum { BLOCK = 16 };
-_Static_assert(FALL_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
+_Static_assert(LOOK_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
 
 // ---- whether ------------------------------------------------------------------------------------------------------
 
@@ -127,7 +129,7 @@ static size_t mark_falling(const scree_context *c, const scree_sleep_limits *lim
     const double needed = limits->window / c->state->step_size;
     for (size_t k = 0; k < count; k++) {
         const size_t row = moving ? moving[k] : k;
-        sleep->quiet[row] = is_quiet(c, limits, row) ? sleep->quiet[row] + FALL_EVERY : 0;
+        sleep->quiet[row] = is_quiet(c, limits, row) ? sleep->quiet[row] + LOOK_EVERY : 0;
         if (!(sleep->quiet[row] >= needed)) continue;
         sleep->asleep[row] = SCREE_FALLS;
         found++;
@@ -165,6 +167,42 @@ static bool some_are_pushed(const scree_state *state, size_t begin, size_t count
 {
     return !are_zero((const two_words *)&state->sum[begin], count) ||
            (state->torque && !are_zero((const two_words *)&state->torque[begin], count));
+}
+
+/// Whether it has fewer contacts than it had. Those that touch it in passing are not counted, but with what has come to
+/// rest beside it.
+static bool has_lost_contact(const scree_state *state, size_t row)
+{
+    scree_sleep *sleep = scree_sleep_of(state);
+    const int64_t resting = sleep->resting[row].contacts, all = resting + state->sum[row].contacts;
+    scree_counted *counted = &sleep->counted[row];
+    if (all < counted->contacts) return true;
+    if (resting > counted->resting) counted->contacts = all;
+    counted->resting = resting;
+    return false;
+}
+
+/// Whether what others that sleep exert on it, and its weight, are out of balance.
+static bool hangs(const scree_context *c, const scree_sleep_limits *limits, size_t row)
+{
+    double resultant[6];
+    find_resultant(c, row, resultant);
+    return size_of(resultant) > limits->wake;
+}
+
+/// Marks those that wake because of what is no longer beside them; returns how many.
+static size_t mark_left(const scree_context *c, const scree_sleep_limits *limits)
+{
+    const scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    size_t found = 0;
+    for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
+        if (sleep->asleep[row] != SCREE_ASLEEP) continue;
+        if (!has_lost_contact(state, row) && (some_are_pushed(state, row, 1) || !hangs(c, limits, row))) continue;
+        sleep->asleep[row] = SCREE_WAKES;
+        found++;
+    }
+    return found;
 }
 
 /// Marks those that wake; returns how many. What nothing acts on but others that sleep keeps its mean.
@@ -272,6 +310,8 @@ static void end_change(scree_state *state)
     for (size_t row = 0; row < state->count; row++) {
         if (sleep->asleep[row] == SCREE_WAKES) sleep->resting[row] = (scree_resting){0};
         if (sleep->asleep[row] == SCREE_FALLS) {
+            sleep->counted[row] =
+                (scree_counted){.contacts = state->sum[row].contacts, .resting = sleep->resting[row].contacts};
             state->sum[row] = (scree_sum_row){0};
             if (state->torque) state->torque[row] = (scree_torque_row){0};
         }
@@ -351,7 +391,7 @@ static scree_status decide(const scree_context *c, scree_error *error)
     scree_status status = make_room(state, error);
     if (status) return status;
     int64_t found = (int64_t)mark_waking(c, &limits);
-    if (state->evaluations % FALL_EVERY == 0) found += (int64_t)mark_falling(c, &limits);
+    if (state->evaluations % LOOK_EVERY == 0) found += (int64_t)(mark_left(c, &limits) + mark_falling(c, &limits));
     // In the other steps nobody finds any.
     if (state->evaluations % WAKE_EVERY == 0) scree_comm_add(state, &found, 1);
     sleep->awake_steps += scree_state_total(state) - sleep->total;
@@ -471,6 +511,9 @@ static const scree_field fields[] = {
          SCREE_RANGE(-0x1p62, 0x1p62)),
     BODY(push, double[6], "push", SCREE_FIELD_DOUBLE, 6, "1",
          "of a body that sleeps, mean of its resultants: force over weight, torque over weight and radius"),
+    BODY(counted, scree_counted, "counted", SCREE_FIELD_INT64, 2, "1",
+         "contacts that a body that sleeps had at the last look, and those among them with others that sleep",
+         SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
     BODY(moving, uint32_t, "moving", SCREE_FIELD_UINT32, 1, "1", "rows that are awake", .role = SCREE_FIELD_DERIVED),
     BODY(pushed, uint32_t, "pushed", SCREE_FIELD_UINT32, 1, "1", "rows that sleep and are pushed",
          .role = SCREE_FIELD_DERIVED),

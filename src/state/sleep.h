@@ -18,6 +18,12 @@ typedef struct scree_resting {
     int64_t contacts;
 } scree_resting;
 
+/// Contacts of a body that sleeps: those that it had when it fell asleep, or when another one came to rest beside it,
+/// and those with others that slept at the last look.
+typedef struct scree_counted {
+    int64_t contacts, resting;
+} scree_counted;
+
 /// What all that sleep exert on a wall that stands, about its centre.
 typedef struct scree_resting_load {
     int64_t force[3], torque[3]; ///< units of force, and of torque on walls
@@ -45,6 +51,7 @@ typedef struct scree_sleep {
     uint8_t *asleep;                         ///< a body; NULL: no stage yet in which bodies may sleep
     uint32_t *quiet;                         ///< a body: steps for which it has been quiet
     scree_resting *resting;                  ///< a body
+    scree_counted *counted;                  ///< a body
     double (*push)[6];    ///< a body: mean resultant of the last window over weight, force and torque over radius
     double force_unit;    ///< N, a power of two
     double torque_unit;   ///< N m, the same
