@@ -353,6 +353,19 @@ static bool looks_at_pile(const scree_config_source *source, const scree_source_
     return own->in_layer == 0 && own->attempts == 0 && scree_source_follows(source);
 }
 
+/// Whether one that stands above the top, and waits, looks where it is now: ten times before the stage has no more
+/// patience, since the pile may have grown up to it within a layer.
+static bool looks_again(const step *s, int64_t index)
+{
+    const scree_state *state = s->c->state;
+    const scree_source_state *own = &s->births->source[index];
+    const double patience = scree_pour_patience(s->c->model, s->stage, index);
+    const uint64_t every = (uint64_t)ceil(0.1 * patience / state->tick), last = s->c->model->largest_step;
+    const uint64_t waited = state->step - own->since;
+    if (isnan(s->c->model->sources[index].above) || own->attempts == 0 || waited < last) return false;
+    return waited / every > (waited - last) / every;
+}
+
 static scree_status pour_source(step *s, int64_t index, scree_error *error)
 {
     const scree_context *c = s->c;
@@ -366,6 +379,9 @@ static scree_status pour_source(step *s, int64_t index, scree_error *error)
         if ((status = measure_pile(s, error))) return status;
         scree_source_begin_layer(c->model, source, &s->pile, own);
         if (left_for(s, index) == 0) return SCREE_OK;
+    } else if (looks_again(s, index)) {
+        if ((status = measure_pile(s, error))) return status;
+        own->top = s->pile.top;
     }
     return pour_next(s, index, error);
 }
@@ -438,7 +454,7 @@ static bool source_wants_all(const step *s, int64_t index)
     if (!scree_source_pours_in(c->model, index, c->state->stage.index) || left_for(s, index) == 0) return false;
     if (!own->begun) return true;
     if (c->state->step < own->due) return false;
-    if (looks_at_pile(&c->model->sources[index], own)) return true;
+    if (looks_at_pile(&c->model->sources[index], own) || looks_again(s, index)) return true;
     scree_vector at;
     const trial t = make_trial(s, index);
     return look(s, index, &t, at).what == NOTHING || (own->attempts > 0 && is_over(s, index));

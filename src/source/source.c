@@ -1,10 +1,11 @@
 /// Places of sources.
 ///
-/// A source that follows the top stands above the highest point that the pile had when its layer began; one that
-/// follows the plateau reaches from end to end of it, less a margin. The plateau is looked for where it was when the
-/// layer before began (before the second one: where the case has the line), so it never grows wider. One narrower than
-/// its margins leaves a point in its middle. Its own motion and the shifts of its layers are added to that: of one that
-/// follows the plateau a single shift, since the plateau has moved with the layers that made it.
+/// A source that follows the top stands above the highest point that the pile had when its layer began, or, where the
+/// pile has grown into its way since, that it has now (source/pour.c); one that follows the plateau reaches from end to
+/// end of it, less a margin. The plateau is looked for where it was when the layer before began (before the second one:
+/// where the case has the line), so it never grows wider. One narrower than its margins leaves a point in its middle.
+/// Its own motion and the shifts of its layers are added to that: of one that follows the plateau a single shift, since
+/// the plateau has moved with the layers that made it.
 ///
 /// Random numbers: uniform ones by counter (base/random.h) of the number of the body, so that nothing depends on when
 /// they are drawn, or for which source.

@@ -457,6 +457,30 @@ static void sources_follow(void **unused)
     scree_case_free(c);
 }
 
+/// A source above the pile rises with it within a layer, when the pile has grown into its way: 30 discs of one layer in
+/// a shaft two diameters wide and 4 mm below it.
+static void a_source_is_not_buried(void **unused)
+{
+    (void)unused;
+    scree_case *c = case_read(
+        HEAD
+        "particles: {shape: disc, material: glass, count: 30, distribution: equal, radius: 2 mm}\n"
+        "walls:\n  - {shape: plane, name: floor, point: [0, 0], normal: [0, 1]}\n"
+        "  - {shape: plane, point: [0, 0], normal: [1, 0]}\n  - {shape: plane, point: [8.2 mm, 0], normal: [-1, 0]}\n"
+        "sources: [{source: line, start: [2.1 mm, 6 mm], end: [6 mm, 6 mm], above: 4 mm, layer: 30, interval: 20 "
+        "ms}]\n"
+        "stages:\n  - {stage: prepare, method: empty}\n  - {stage: pour, patience: 0.5 s}\n",
+        NULL, 0);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    while (simulation_goes_on(&s)) simulation_step(&s);
+    assert_int_equal(s.state.next_id, 30);
+    assert_int_equal(scree_births_of(&s.state)->source[0].layer, 1);
+    assert_true(scree_births_of(&s.state)->source[0].waits > 2);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
 /// Rows of fixed discs as a rough bottom: they are of the case, but not of the pile.
 static void a_rough_bottom(void **unused)
 {
@@ -642,6 +666,7 @@ int main(void)
         cmocka_unit_test(height_and_width_end_a_stage),
         cmocka_unit_test(layers_lie_side_by_side),
         cmocka_unit_test(sources_follow),
+        cmocka_unit_test(a_source_is_not_buried),
         cmocka_unit_test(a_rough_bottom),
         cmocka_unit_test(a_triangle_is_measured),
     };
