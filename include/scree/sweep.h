@@ -144,6 +144,9 @@ typedef struct scree_report_options {
 SCREE_API scree_status scree_report_write(const scree_report_options *options, FILE *file, scree_problems **problems,
                                           scree_error *error);
 
+/// Whether a statement of the built-in tables is about the sweep of this name in a form.
+SCREE_API bool scree_report_judges(const char *sweep, bool quick);
+
 #ifdef __cplusplus
 }
 #endif

@@ -30,6 +30,11 @@ enum { SCREE_CASE_PATH = sizeof((scree_error *)0)->field };
 /// where anything else than stages, name, title, output and guards differs. `where`: path of the first key that
 /// differs, of the stages the first behind those; empty: there is none.
 int64_t scree_case_common_stages(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH]);
+/// The first stage in which two cases differ, whatever else does; -1: in none. `where`: path of the key; empty where one
+/// case has fewer stages.
+int64_t scree_case_stage_apart(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH]);
+/// Whether two cases are not the same. `where`: path of the first key that differs.
+bool scree_case_is_apart(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH]);
 /// FNV-1a (Fowler, Noll, Vo) of the values of the resolved case: a checkpoint belongs to one case. Limits that only
 /// stop a run (guard, time_limit) and comments are left out, so that a run goes on when they have been changed. Errors:
 /// memory.

@@ -187,6 +187,29 @@ static bool is_free(const scree_key *key)
     return false;
 }
 
+int64_t scree_case_stage_apart(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH])
+{
+    const part first = whole(one), second = whole(other);
+    const scree_section *schema = scree_schema();
+    path *there = (path *)where;
+    where[0] = 0;
+    for (size_t i = 0; i < schema->count; i++) {
+        const scree_key *key = &schema->keys[i];
+        if (strcmp(key->name, "stages") != 0) continue;
+        const int64_t same = same_elements(key, &first, &second, there);
+        if (where[0]) (void)differs(there, key->name);
+        return same == count_of(key, &first) && same == count_of(key, &second) ? -1 : same;
+    }
+    return -1;
+}
+
+bool scree_case_is_apart(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH])
+{
+    const part first = whole(one), second = whole(other);
+    where[0] = 0;
+    return !same_section(scree_schema(), &first, &second, (path *)where);
+}
+
 int64_t scree_case_common_stages(const scree_case *one, const scree_case *other, char where[SCREE_CASE_PATH])
 {
     const part first = whole(one), second = whole(other);

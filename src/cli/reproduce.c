@@ -54,6 +54,15 @@ static scree_status run_one(const scree_command *command, scree_sweep_command *c
     return status;
 }
 
+/// Whether it is a quick form of which the page would say nothing; told, unless it is to be quiet.
+static bool is_left_out(const scree_sweep_command *call, const char *name)
+{
+    if (!call->read.quick || scree_report_judges(name, true)) return false;
+    if (!call->display.quiet)
+        fprintf(stderr, "%s: left out: it judges nothing in the quick form; --only %s runs it\n", name, name);
+    return true;
+}
+
 static scree_status run_all(const scree_command *command, scree_sweep_command *call, const char *output)
 {
     const char *only = scree_command_value(command, "only");
@@ -61,7 +70,7 @@ static scree_status run_all(const scree_command *command, scree_sweep_command *c
     scree_stop_catch();
     for (size_t i = 0; i < scree_sweep_builtin_count(); i++) {
         const char *name = scree_sweep_builtin_name(i);
-        if (only && strcmp(only, name) != 0) continue;
+        if (only ? strcmp(only, name) != 0 : is_left_out(call, name)) continue;
         scree_status status = run_one(command, call, output, name);
         if (status == SCREE_INTERRUPTED) return status;
         if (status) result = SCREE_ERROR_GUARD;

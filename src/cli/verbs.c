@@ -369,7 +369,8 @@ static const scree_verb run_verbs[] = {
         .meaning = "repeat the published experiments, and compare with their sources",
         .text = "Runs every built-in sweep into a folder of its own below DIR, continuing what is missing as `scree "
                 "sweep` does, and writes `DIR/reproduction.md`. Without `--full` the quick forms are run: smaller "
-                "samples, and a larger but still small quasistatic number.",
+                "samples, and a larger but still small quasistatic number; sweeps that judge no statement in this form are "
+                "left out, which is told, unless `--only` asks for them.",
         .option = {{.name = "output",
                     .letter = 'o',
                     .value = "DIR",

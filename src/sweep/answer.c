@@ -288,16 +288,22 @@ static void add_number(names *n, double value)
     names_add(n, text);
 }
 
-/// Builds and preparations where they are not the same, and what failed.
+/// Builds and preparations where they are not the same, or not those of the sweep now, what was too fast, what failed.
 static void remark_runs(const question *q, const side *s)
 {
     names builds = {0}, frictions = {0};
-    size_t failed = 0;
+    size_t failed = 0, done = 0, hasty = 0;
+    bool sample = false, other = false, seeds = false;
     for (size_t k = 0; k < s->reference_count; k++) {
         names sizes = {0};
         for (const scree_finding *f = next_run(q, &s->reference[k], NULL); f; f = next_run(q, &s->reference[k], f)) {
             failed += f->state == SCREE_FINDING_FAILED;
             if (f->state != SCREE_FINDING_DONE) continue;
+            done++;
+            hasty += f->hasty;
+            sample |= f->other_sample;
+            other |= f->other_case[0];
+            seeds |= f->other_seed;
             names_add(&builds, f->build);
             add_number(&frictions, f->friction);
             add_number(&sizes, f->particles);
@@ -306,6 +312,9 @@ static void remark_runs(const question *q, const side *s)
     }
     remark_names(q->answer, "builds differ", &builds);
     remark_names(q->answer, "preparations differ, friction of the confinement", &frictions);
+    if (sample || other) remark(q->answer, "of another %s than the case has now", sample ? "preparation" : "setting");
+    if (seeds) remark(q->answer, "seeds are not those of the sweep now");
+    if (hasty > 0) remark(q->answer, "not quasistatic by their own account: %zu of %zu runs", hasty, done);
     if (failed > 0) remark(q->answer, "%zu failed", failed);
 }
 

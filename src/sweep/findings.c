@@ -1,6 +1,7 @@
 /// Finding runs: by summary.json (a run) and sweep.json (a sweep, which lists its members). Whether a member is done is
 /// what its own summary.json says: sweep.json may be older.
 #include "sweep/findings.h"
+#include "sweep/member.h"
 
 #include "base/memory.h"
 #include "io/run_directory.h"
@@ -77,6 +78,11 @@ static bool read_summary(scree_finding *finding)
     finding->unbalanced = number_of(summary, "earlier_unbalanced");
     finding->coordination = number_of(summary, "coordination_at_start");
     (void)snprintf(finding->build, sizeof finding->build, "%s", commit && commit[0] ? commit : version ? version : "");
+    const char *quasistatic = json_string_value(json_object_get(summary, "quasistatic"));
+    const char *account = json_string_value(json_object_get(summary, "quasistatic_reason"));
+    finding->hasty = quasistatic && strcmp(quasistatic, "no") == 0;
+    finding->kinetic_over_elastic = number_of(summary, "kinetic_over_elastic");
+    (void)snprintf(finding->account, sizeof finding->account, "%s", account ? account : "");
     json_decref(summary);
     return true;
 }
@@ -87,7 +93,8 @@ static const scree_finding nothing = {.state = SCREE_FINDING_MISSING,
                                       .solid_fraction = NAN,
                                       .gap_scatter = NAN,
                                       .unbalanced = NAN,
-                                      .coordination = NAN};
+                                      .coordination = NAN,
+                                      .kinetic_over_elastic = NAN};
 
 /// A run by itself, when it has ended.
 static scree_status add_run(scree_findings *findings, const char *directory, scree_error *error)
@@ -112,6 +119,23 @@ scree_status scree_ensemble_folder(char *path, size_t size, const char *director
     return scree_path_join(path, size, directory, name, error);
 }
 
+/// What a member that failed printed last, up to the end of its first sentence, without the name of the program.
+static void read_cause(scree_finding *finding)
+{
+    char log[PATH_MAX + 8], said[1024];
+    (void)snprintf(log, sizeof log, "%s.txt", finding->directory);
+    scree_member_last_words(log, said, sizeof said);
+    const char *begin = strncmp(said, "scree ", 6) == 0 ? strstr(said, ": ") : NULL;
+    begin = begin ? begin + 2 : said;
+    size_t length = strlen(begin);
+    static const char *const ends[] = {"; ", ". "};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        const char *end = strstr(begin, ends[k]);
+        if (end && (size_t)(end - begin) < length) length = (size_t)(end - begin);
+    }
+    (void)snprintf(finding->cause, sizeof finding->cause, "%.*s", (int)length, begin);
+}
+
 static scree_status add_member(scree_findings *findings, const char *directory, json_t *sweep, json_t *member,
                                scree_error *error)
 {
@@ -134,6 +158,7 @@ static scree_status add_member(scree_findings *findings, const char *directory, 
     if (!joined) joined = scree_ensemble_folder(finding.ensemble, sizeof finding.ensemble, directory, label, error);
     if (joined) return joined;
     (void)read_summary(&finding);
+    if (finding.state == SCREE_FINDING_FAILED) read_cause(&finding);
     return add(findings, &finding, error);
 }
 

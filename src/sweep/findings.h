@@ -31,6 +31,15 @@ typedef struct scree_finding {
     // Where no boundary has measured a solid fraction: of a dense packing, and of the state that a change begins with.
     double gap_scatter, unbalanced;
     char build[128];
+    // Whether it keeps the limits of quasistatic loading by its own account, and what it says of that; NAN and "".
+    bool hasty;
+    double kinetic_over_elastic;
+    char account[200];
+    char cause[200]; ///< of one that failed: what it said first; "" where nothing is known
+    // Of one that is done, beside the built-in sweep of this name as it is now (origin.h).
+    bool other_seed;      ///< its seed is not one of the sweep
+    bool other_sample;    ///< its case differs before the last stage
+    char other_case[160]; ///< path of the first key in which its case differs; "" where it does not, or is not known
 } scree_finding;
 
 typedef struct scree_findings {

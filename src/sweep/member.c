@@ -69,13 +69,20 @@ static void read_log(const char *path, char *note, char *said, size_t size)
     }
 }
 
+void scree_member_last_words(const char *log, char *text, size_t size)
+{
+    char note[1024], said[1024];
+    read_log(log, note, said, sizeof note);
+    const bool failed = strncmp(note, SCREE_MEMBER_FAILURE, strlen(SCREE_MEMBER_FAILURE)) == 0;
+    (void)snprintf(text, size, "%s", !failed ? "" : said[0] ? said : note + strlen(SCREE_MEMBER_FAILURE));
+}
+
 scree_member_state scree_member_look(const scree_member_paths *paths, const scree_case *c, char *reason, size_t size)
 {
-    char path[PATH_MAX], status[64], note[1024], said[1024];
-    if (reason) reason[0] = 0;
-    read_log(paths->log, note, said, sizeof note);
-    bool failed = strncmp(note, SCREE_MEMBER_FAILURE, strlen(SCREE_MEMBER_FAILURE)) == 0;
-    if (failed && reason) (void)snprintf(reason, size, "%s", said[0] ? said : note + strlen(SCREE_MEMBER_FAILURE));
+    char path[PATH_MAX], status[64], words[1024];
+    scree_member_last_words(paths->log, words, sizeof words);
+    const bool failed = words[0];
+    if (reason) (void)snprintf(reason, size, "%s", words);
     if (scree_path_join(path, sizeof path, paths->folder, SCREE_FILE_CASE, NULL)) return SCREE_MEMBER_MISSING;
     int same = compare_case(path, c);
     if (same < 0) return SCREE_MEMBER_CHANGED;

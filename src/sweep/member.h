@@ -31,6 +31,9 @@ scree_status scree_member_find(const scree_sweep *sweep, size_t member, const ch
 /// failed.
 scree_member_state scree_member_look(const scree_member_paths *paths, const scree_case *c, char *reason, size_t size);
 
+/// What a member that failed printed last, by its log (.txt), or how it ended; "" where it did not fail.
+void scree_member_last_words(const char *log, char *text, size_t size);
+
 /// Whether a member in that state goes on from a whole checkpoint. One that a guard has stopped, or that would not be
 /// continued the last time, begins anew.
 bool scree_member_can_continue(const scree_member_paths *paths, scree_member_state state);

@@ -18,8 +18,7 @@ void scree_page_row_head(FILE *file)
                 file);
 }
 
-/// A cell of a table: what would end it is escaped.
-static void put_cell(FILE *file, const char *text)
+void scree_page_cell_write(FILE *file, const char *text)
 {
     for (const char *c = text; *c; c++) {
         if (*c == '|') (void)fputc('\\', file);
@@ -32,11 +31,11 @@ static void put_cell(FILE *file, const char *text)
 static void put_statement(FILE *file, const scree_statement *s, bool first)
 {
     (void)fprintf(file, "| %s | ", s->id);
-    put_cell(file, first ? class_names[s->class] : "");
-    put_cell(file, first ? s->text : "");
-    put_cell(file, first ? s->source : "");
-    put_cell(file, first ? s->given : "");
-    put_cell(file, first ? s->criterion : "");
+    scree_page_cell_write(file, first ? class_names[s->class] : "");
+    scree_page_cell_write(file, first ? s->text : "");
+    scree_page_cell_write(file, first ? s->source : "");
+    scree_page_cell_write(file, first ? s->given : "");
+    scree_page_cell_write(file, first ? s->criterion : "");
 }
 
 /// The value with its interval, and how many realisations it rests on.
@@ -65,7 +64,7 @@ void scree_page_row_write(FILE *file, const scree_statement *s, const scree_answ
     const char *mark = counted ? "**" : "";
     (void)fprintf(file, "%s%s%s%s%s | %s | ", counted ? "" : "(", mark, verdict_names[a->verdict], mark,
                   counted ? "" : ")", form);
-    put_cell(file, a->remark);
+    scree_page_cell_write(file, a->remark);
     (void)fputs("\n", file);
 }
 

@@ -6,6 +6,9 @@
 
 #include <stdio.h>
 
+/// A cell of a table: what would end it is escaped.
+void scree_page_cell_write(FILE *file, const char *text);
+
 /// Above the rows of a case.
 void scree_page_row_head(FILE *file);
 

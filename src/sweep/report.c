@@ -2,6 +2,7 @@
 /// interval, the full form before the quick one, is counted; where none has, the first one with a result. Nothing on
 /// the page depends on the day or the machine but the results themselves.
 #include "sweep/ensemble_figures.h"
+#include "sweep/origin.h"
 #include "sweep/page_row.h"
 #include "sweep/page_section.h"
 #include "sweep/runs_table.h"
@@ -200,7 +201,10 @@ static scree_status put_group(page *p, const scree_statement_group *group)
         status = write_group(p, group, former, &section, &text);
     }
     if (!status) {
-        (void)fwrite(section.text, 1, section.length, p->file);
+        if (stays)
+            scree_runs_table_renew(&section, group->name, p->file);
+        else
+            (void)fwrite(section.text, 1, section.length, p->file);
         scree_page_section_count(&section, group, p->counts);
     }
     free(text);
@@ -238,7 +242,11 @@ static const char introduction[] =
     "is the range of what was found. `4 of 5` realisations: one failed, was not run, or has no such value. *Not\n"
     "measured*: the runs are there and do not have the result. Results called ensemble_... are those of averages over "
     "all\n"
-    "runs of a point, with bootstrap intervals of 95 %.\n"
+    "runs of a point, with bootstrap intervals of 95 %. Remarks say which runs are not quasistatic by their own "
+    "account\n"
+    "(`quasistatic: no` in their summary.json), why runs failed, and which were made of another preparation or of "
+    "other\n"
+    "seeds than the case has now.\n"
     "\n"
     "A *finding* is the source's own, a *check* ours (an identity, a closed form, a stop rule), *beyond* what the\n"
     "source does not have. Each statement counts once: by its full form where that has a result with an interval,\n"
@@ -329,6 +337,7 @@ scree_status scree_report_write(const scree_report_options *options, FILE *file,
     scree_status status = SCREE_OK;
     for (size_t i = 0; i < options->directory_count && !status; i++)
         status = scree_findings_add(&findings, options->directory[i], error);
+    scree_origin_compare(&findings);
     FILE *head = open_memstream(&head_text, &length), *body = open_memstream(&body_text, &length);
     if (!status && (!head || !body)) status = scree_error_set_memory(error, 4096);
     page p = {.file = body, .findings = &findings, .options = options, .error = error};

@@ -1,8 +1,12 @@
 /// One row a point of the grid and form: seeds that are done, builds, friction of the confinement, solid fraction and
-/// coordination at the begin of loading.
+/// coordination at the begin of loading, and what has to be known of these runs: those that are not quasistatic by
+/// their own account, why others failed, whether the sweep is another one now. The last of these is found anew in rows
+/// that stay, from their seeds; so it ends the remark.
 #include "sweep/runs_table.h"
+#include "sweep/origin.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Whether two runs belong to one row.
@@ -44,7 +48,96 @@ static void begin_row(char *text, size_t size, const scree_finding *f)
                    scree_finding_form_names[f->form]);
 }
 
-static void put_row(FILE *file, const scree_findings *findings, const scree_finding *row)
+/// How the remark on seeds begins.
+#define SEEDS_NOW "seeds are not those of the sweep now"
+
+/// Sweeps of one name as they are now, in the forms that have been asked for.
+typedef struct sweeps {
+    const char *name;
+    scree_sweep *form[SCREE_FINDING_FORMS];
+    bool read[SCREE_FINDING_FORMS];
+} sweeps;
+
+static const scree_sweep *sweep_now(sweeps *now, scree_finding_form form)
+{
+    if (!now->read[form]) now->form[form] = scree_origin_sweep(now->name, form);
+    now->read[form] = true;
+    return now->form[form];
+}
+
+static void free_sweeps(sweeps *now)
+{
+    for (int form = 0; form < SCREE_FINDING_FORMS; form++) scree_sweep_free(now->form[form]);
+}
+
+static void put_seeds_now(FILE *file, const scree_sweep *sweep, const char *separator)
+{
+    (void)fprintf(file, "%s" SEEDS_NOW " (from %lld on)", separator, (long long)sweep->config.seed);
+}
+
+/// What the remark on the runs of a row is made of.
+typedef struct remarks {
+    size_t done, failed, hasty, other_seeds;
+    const scree_finding *worst; ///< of the hasty ones
+    const scree_finding *other; ///< one whose case is another one now
+} remarks;
+
+static remarks collect_remarks(const scree_findings *findings, const scree_finding *row)
+{
+    remarks r = {0};
+    for (const scree_finding *f = row; f < findings->item + findings->count; f++) {
+        if (!same_row(f, row)) continue;
+        r.failed += f->state == SCREE_FINDING_FAILED;
+        if (f->state != SCREE_FINDING_DONE) continue;
+        r.done++;
+        r.other_seeds += f->other_seed;
+        r.hasty += f->hasty;
+        if (f->hasty && (!r.worst || f->kinetic_over_elastic > r.worst->kinetic_over_elastic)) r.worst = f;
+        if (f->other_case[0] && (!r.other || f->other_sample > r.other->other_sample)) r.other = f;
+    }
+    return r;
+}
+
+/// Why members failed, each reason with the seeds that give it.
+static void put_causes(FILE *file, const scree_findings *findings, const scree_finding *row, const char **separator)
+{
+    const scree_finding *end = findings->item + findings->count;
+    for (const scree_finding *f = row; f < end; f++) {
+        if (!same_row(f, row) || f->state != SCREE_FINDING_FAILED) continue;
+        (void)fprintf(file, "%sseed %lld failed: %s", *separator, f->seed,
+                      f->cause[0] ? f->cause : "its log is not there");
+        *separator = "; ";
+    }
+}
+
+/// The cell of the remark; NULL: no memory.
+static char *remark_of(const scree_findings *findings, const scree_finding *row, sweeps *now)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *file = open_memstream(&text, &length);
+    if (!file) return NULL;
+    const remarks r = collect_remarks(findings, row);
+    const char *separator = "";
+    if (r.hasty > 0) {
+        (void)fprintf(file, "not quasistatic by their own account: %zu of %zu, %s%s", r.hasty, r.done,
+                      r.hasty > 1 ? "the worst: " : "", r.worst->account);
+        separator = "; ";
+    }
+    put_causes(file, findings, row, &separator);
+    if (r.other) {
+        (void)fprintf(file, "%sof another %s than the case has now (%s)", separator,
+                      r.other->other_sample ? "preparation" : "setting", r.other->other_case);
+        separator = "; ";
+    }
+    const scree_sweep *sweep = r.other_seeds > 0 ? sweep_now(now, row->form) : NULL;
+    if (sweep) put_seeds_now(file, sweep, separator);
+    if (fclose(file) == 0) return text;
+    free(text);
+    return NULL;
+}
+
+static void put_row(FILE *file, const scree_findings *findings, const scree_finding *row, sweeps *now)
 {
     char begin[400];
     double friction[2] = {NAN, NAN}, solid[2] = {NAN, NAN}, contacts[2] = {NAN, NAN};
@@ -71,15 +164,21 @@ static void put_row(FILE *file, const scree_findings *findings, const scree_find
     put_range(file, friction[0], friction[1]);
     put_range(file, solid[0], solid[1]);
     put_range(file, contacts[0], contacts[1]);
+    char *remark = remark_of(findings, row, now);
+    scree_page_cell_write(file, remark ? remark : "");
     (void)fputs("\n", file);
+    free(remark);
 }
+
+#define HEAD_BEGIN "| runs | form | seeds |"
+enum { CELLS = 9 };
+static const char head[] = HEAD_BEGIN " failed, missing | build | friction of the confinement | solid fraction at the "
+                                      "begin of loading | coordination there | remark |\n"
+                                      "|---|---|---|---|---|---|---|---|---|\n";
 
 static void put_head(FILE *file, bool *any)
 {
-    if (!*any)
-        (void)fputs("\n| runs | form | seeds | failed, missing | build | friction of the confinement | solid "
-                    "fraction at the begin of loading | coordination there |\n|---|---|---|---|---|---|---|---|\n",
-                    file);
+    if (!*any) (void)fprintf(file, "\n%s", head);
     *any = true;
 }
 
@@ -117,25 +216,101 @@ static bool tells_more(const scree_findings *findings, const char *line, size_t 
     return !known || seeds_of_line(line + length) > done;
 }
 
+/// Whether one of the seeds of a row, in the cell at `cell`, is none of the sweep; the next cell says how many runs
+/// beside these there should be.
+static bool has_other_seeds(const char *cell, const scree_sweep *sweep)
+{
+    const size_t count = seeds_of_line(cell);
+    size_t failed = 0, missing = 0;
+    (void)sscanf(cell, "%*[^|]| %zu, %zu", &failed, &missing);
+    bool other = false;
+    char *end;
+    for (size_t k = 0; k < count; k++) {
+        const long long seed = strtoll(cell, &end, 10);
+        if (end == cell) break;
+        other |= !scree_origin_has_seed(sweep, seed, count + failed + missing);
+        cell = end + 1;
+    }
+    return other;
+}
+
+static scree_finding_form form_of_line(const char *line)
+{
+    const char *cell = strstr(line + 2, " | ") + 3;
+    int form = 0;
+    while (form < SCREE_FINDING_RUN &&
+           strncmp(cell, scree_finding_form_names[form], strlen(scree_finding_form_names[form])) != 0)
+        form++;
+    return (scree_finding_form)form;
+}
+
+/// Behind bar number `count` of a line, which begins with the first; its end where there are fewer.
+static const char *behind_bar(const char *line, const char *end, int count)
+{
+    for (; line < end; line++)
+        if (*line == '|' && --count == 0) return line + 1;
+    return end;
+}
+
+/// A row of a page that stands, with what its seeds say now. `length`: of the cells that say which runs it is of.
+static void put_former_row(FILE *file, const char *line, const char *end, size_t length, sweeps *now)
+{
+    const char *begin = behind_bar(line, end, CELLS), *remark = begin, *stop = end;
+    const scree_sweep *sweep = sweep_now(now, form_of_line(line));
+    while (remark < end && *remark == ' ') remark++;
+    const char *old = strstr(remark, SEEDS_NOW);
+    // Behind the remark are the last bar and a space.
+    while (stop > remark && (stop[-1] == ' ' || (stop[-1] == '|' && stop[-2] != '\\'))) stop--;
+    if (old && old < stop) stop = old;
+    while (stop > remark && (stop[-1] == ' ' || stop[-1] == ';')) stop--;
+    (void)fprintf(file, "%.*s %.*s", (int)(begin - line), line, (int)(stop - remark), remark);
+    if (sweep && has_other_seeds(line + length, sweep)) put_seeds_now(file, sweep, stop > remark ? "; " : "");
+    (void)fputs(" | \n", file);
+}
+
+void scree_runs_table_renew(const scree_page_section *section, const char *name, FILE *file)
+{
+    sweeps now = {.name = name};
+    const char *const stop = section->text + section->length;
+    bool table = true, head_follows = false;
+    for (const char *line = section->text; line < stop;) {
+        const char *newline = memchr(line, '\n', (size_t)(stop - line)), *end = newline ? newline : stop;
+        table &= strncmp(line, "| id |", 6) != 0;
+        const size_t length = table ? row_of_runs(line, name) : 0;
+        if (head_follows)
+            head_follows = false; // the line below the head, which is written with it
+        else if (table && (head_follows = strncmp(line, HEAD_BEGIN, strlen(HEAD_BEGIN)) == 0))
+            (void)fputs(head, file);
+        else if (length > 0)
+            put_former_row(file, line, end, length, &now);
+        else
+            (void)fprintf(file, "%.*s%s", (int)(end - line), line, newline ? "\n" : "");
+        line = newline ? newline + 1 : stop;
+    }
+    free_sweeps(&now);
+}
+
 void scree_runs_table_write(const scree_findings *findings, const char *name, const scree_page_section *former,
                             FILE *file)
 {
     bool any = false;
+    sweeps now = {.name = name};
     for (size_t i = 0; i < findings->count; i++) {
         const scree_finding *f = &findings->item[i], *first = findings->item;
         if (strcmp(f->name, name) != 0) continue;
         while (!same_row(first, f)) first++;
         if (first != f) continue;
         put_head(file, &any);
-        put_row(file, findings, f);
+        put_row(file, findings, f, &now);
     }
     for (const char *line = former ? former->text : NULL; line && line < former->text + former->length;) {
         const char *end = strncmp(line, "| id |", 6) == 0 ? NULL : strchr(line, '\n'); // statements come behind
         const size_t length = end ? row_of_runs(line, name) : 0;
         if (length > 0 && tells_more(findings, line, length)) {
             put_head(file, &any);
-            (void)fprintf(file, "%.*s\n", (int)(end - line), line);
+            put_former_row(file, line, end, length, &now);
         }
         line = end ? end + 1 : NULL;
     }
+    free_sweeps(&now);
 }

@@ -12,4 +12,7 @@
 void scree_runs_table_write(const scree_findings *findings, const char *name, const scree_page_section *former,
                             FILE *file);
 
+/// Writes a section that stays, as it is but for what the seeds of its runs say beside the sweep as it is now.
+void scree_runs_table_renew(const scree_page_section *section, const char *name, FILE *file);
+
 #endif

@@ -121,16 +121,39 @@ static bool read_criterion(scree_statement *s)
     return false;
 }
 
-/// The nearest criterion to what stands before the first number, or all of them.
-static const char *suggest_criterion(const char *text)
+/// What is expected behind each.
+static const char *const behind[] = {[SCREE_CRITERION_WITHIN] = "a share, as in 'within 10 %'",
+                                     [SCREE_CRITERION_GREATER] = "one number without unit, as in 'greater than 2'",
+                                     [SCREE_CRITERION_LESS] = "one number without unit, as in 'less than 3'",
+                                     [SCREE_CRITERION_BETWEEN] = "two numbers, the lower one first, as in 'between 2 "
+                                                                 "and 4'",
+                                     [SCREE_CRITERION_HOLDS] = "nothing"};
+
+/// Notes what is wrong with a criterion: behind its words, or its words, with the nearest right ones.
+static void refuse_criterion(scree_reader *reader, scree_place place, const scree_statement *s)
 {
+    static const char forms_of_all[] = "within 10 %, greater than 2, less than 3, between 2 and 4, holds";
+    const char *text = s->criterion;
+    for (size_t kind = 0; kind < COUNT(criteria); kind++) {
+        const size_t length = strlen(criteria[kind]);
+        if (strncmp(text, criteria[kind], length) != 0 || (text[length] && text[length] != ' ')) continue;
+        scree_problem_add(reader, place, s->id, text, forms_of_all, "'%s' is not a criterion, expected behind '%s': %s",
+                          scree_show(text).text, criteria[kind], behind[kind]);
+        return;
+    }
     char words[40];
     size_t length = strcspn(text, "+-.0123456789");
+    const char *number = text + length;
     while (length > 0 && text[length - 1] == ' ') length--;
     (void)snprintf(words, sizeof words, "%.*s", (int)length, text);
     const char *nearest = scree_nearest(words, criteria, COUNT(criteria));
-    bool right = nearest && strcmp(nearest, words) == 0;
-    return nearest && !right ? nearest : "within 10 %, greater than 2, less than 3, between 2 and 4, holds";
+    if (nearest)
+        scree_problem_add(reader, place, s->id, text, forms_of_all,
+                          "there is no criterion '%s'; did you mean '%s%s%s'?", scree_show(text).text, nearest,
+                          number[0] ? " " : "", number[0] ? scree_show(number).text : "");
+    else
+        scree_problem_add(reader, place, s->id, text, forms_of_all, "there is no criterion '%s'",
+                          scree_show(text).text);
 }
 
 /// Every name of an expression has a result of a run.
@@ -151,16 +174,15 @@ static void check_statement(scree_reader *reader, scree_statement *s, const scre
     const scree_node *criterion = scree_node_find(node, "criterion"), *expression = scree_node_find(node, "value");
     s->place = node->place;
     s->value_place = expression->place;
-    if (!read_criterion(s))
-        scree_problem_add(reader, criterion->place, s->id, s->criterion, suggest_criterion(s->criterion),
-                          "is not a criterion");
+    if (!read_criterion(s)) refuse_criterion(reader, criterion->place, s);
     if (scree_expression_evaluate(s->value, check_name, &good, &value, &error))
         scree_problem_add(reader, expression->place, s->id, s->value, NULL, "%s", error.message);
     else if (!good)
         scree_problem_add(reader, expression->place, s->id, s->value, "CASE/LABEL.RESULT",
                           "names are not of this form");
     if (s->kind == SCREE_CRITERION_WITHIN && scree_units_parse(s->given, "1", &s->bound[1], NULL))
-        scree_problem_add(reader, node->place, s->id, s->given, "a number", "'within' needs a number in 'given'");
+        scree_problem_add(reader, node->place, s->id, s->given, "a number",
+                          "'within' needs a number in 'given', not '%s'", scree_show(s->given).text);
     if (s->form != SCREE_FORM_ANY && s->reason && !s->reason[0])
         scree_problem_add(reader, node->place, s->id, NULL, "reason: why the other form cannot decide it",
                           "'form' needs a 'reason'");

@@ -116,6 +116,72 @@ expect 0 '' "$scree" report runs/one/full --statements mine.yaml -o page.md
 row large | grep -qF '| 1.05 [0.4147, 1.685] | 2 of 2 | **undecided** | quick |' || complain "one full run in place of two quick ones: $(row large)"
 row more | grep -qF '| 2 | 1 of 1 | **undecided** | full |' || complain "one run of the only form, beside rows that stay: $(row more)"
 rm -r runs/one
+# What runs say of themselves: some are not quasistatic, one failed, and why.
+sweep runs/own mine false '' <<'END'
+1 done 0.81 aaa 2.0
+2 done 0.82 aaa 2.1
+3 failed 0 x 0
+4 done 0.83 aaa 2.2
+5 failed 0 x 0
+END
+for seed in 1 4; do
+    sed -i "s/\"r\":/\"kinetic_over_elastic\": 0.$seed, \"quasistatic\": \"no\", \"quasistatic_reason\": \"stage 2 (compress): 0.$seed, above | 0.1\", &/" \
+        runs/own/members/$seed/summary.json
+done
+sed -i 's/"r":/"kinetic_over_elastic": 0.01, "quasistatic": "yes", "quasistatic_reason": "every stage keeps its limits", &/' runs/own/members/2/summary.json
+printf '%s\n' 'warning: it goes slowly' 'scree run: step 7: particle 3 overlaps by 12 %; use a smaller step' 'scree sweep: failed: exit status 3' >runs/own/members/3.txt
+rm page.md
+expect 0 '' "$scree" report runs/own --statements mine.yaml -o page.md
+grep '^| mine |' page.md | grep -qF '| 3.5 | not quasistatic by their own account: 2 of 3, the worst: stage 2 (compress): 0.4, above \| 0.1; seed 3 failed: step 7: particle 3 overlaps by 12 %; seed 5 failed: its log is not there |' ||
+    complain "what runs say of themselves: $(grep '^| mine |' page.md)"
+row large | grep -qF '| not quasistatic by their own account: 2 of 3 runs; 2 failed |' || complain "remark of the row: $(row large)"
+# A page that stays keeps it.
+cp page.md own.md
+expect 0 '1 cases stay' "$scree" report runs/quick --statements mine.yaml -o page.md
+cmp -s page.md own.md || complain "remarks of a page that stays: $(diff page.md own.md)"
+# Runs beside the built-in sweep of their name: of its seeds and case, of other ones, of another preparation.
+made() { # FOLDER NAME POINT SEED KEY=VALUE...: a member with the case that the sweep would have but for these
+    local into=$1/members/$4 set=() pair
+    for pair in "${@:5}" "seed=$4"; do set+=(--set "$pair"); done
+    sweep "$1" "$2" false "$3" <<<"$4 done 0.81 aaa 2.0"
+    "$scree" check biaxial-boundaries "${set[@]}" >"$into/case.yaml"
+}
+cat >built.yaml <<'END'
+source: "Mine (Q)"
+cases:
+  - case: biaxial-boundaries
+    meaning: What it is.
+    statements:
+      - {id: large, statement: s, source: Q 1, given: above 1, value: biaxial-boundaries/pressure.r, criterion: greater than 1, kind: finding}
+END
+told() { # REMARK OF THE ROW: what both tables say of runs/built
+    rm -f page.md
+    expect 0 '' "$scree" report runs/built --statements built.yaml -o page.md
+    grep '^| biaxial-boundaries/' page.md | grep -qF "| 3.5 | $1 |" || complain "not '$1': $(grep '^| biaxial-boundaries/' page.md)"
+    row large | grep -qF "| one sample: no interval$2 |" || complain "not '$2': $(row large)"
+}
+made runs/built biaxial-boundaries pressure 301
+told '' ''
+made runs/built biaxial-boundaries pressure 101
+told 'seeds are not those of the sweep now (from 301 on)' '; seeds are not those of the sweep now'
+sed 's/ *| seeds are not.*$/ | /; s/ | remark |$/ |/' page.md >older.md
+made runs/built biaxial-boundaries pressure 301 stages.confine.friction=0.05
+told 'of another preparation than the case has now (stages.1.friction)' '; of another preparation than the case has now'
+made runs/built biaxial-boundaries pressure 301 stages.compress.rate='1e-3 1/s'
+told 'of another setting than the case has now (stages.2.rate)' '; of another setting than the case has now'
+# A preparation counts before anything else that differs.
+made runs/built biaxial-boundaries pressure 301 contact.damping_time='3 ms' stages.confine.friction=0.05
+told 'of another preparation than the case has now (stages.1.friction)' '; of another preparation than the case has now'
+# Runs that are gone have left their seeds, on a page without such remarks too.
+mkdir -p nothing
+cp older.md page.md
+expect 0 '1 cases stay' "$scree" report nothing --statements built.yaml -o page.md
+grep '^| biaxial-boundaries/' page.md | grep -qF '| 3.5 | seeds are not those of the sweep now (from 301 on) |' || complain "seeds of a page: $(grep '^| biaxial-boundaries/' page.md)"
+grep -qE '^\| runs .* \| remark \|$' page.md || complain "the head of a table that stays: $(grep '^| runs ' page.md)"
+cp page.md older.md
+expect 0 '1 cases stay' "$scree" report nothing --statements built.yaml -o page.md
+cmp -s page.md older.md || complain "the same remark is not written twice: $(diff page.md older.md)"
+rm -r runs/own runs/built page.md
 # Several sources; what is built in stays as it is.
 expect 0 '' "$scree" report runs -s mine.yaml --statements padbidri2010 -o page.md
 same "$(grep -c '^## ' page.md)" 2 "sources on the page"
@@ -128,7 +194,12 @@ wrong() {
 }
 cp page.md before.md
 wrong 's/kind: check/kind: chek/' "10:[0-9]+: cases.0.statements.2.kind: .*did you mean 'check'"
-wrong 's/greater than 9/greatr than 9/' "8:[0-9]+: huge: is not a criterion .accepted: greater than."
+all_forms='.accepted: within 10 %, greater than 2, less than 3, between 2 and 4, holds.'
+wrong 's/greater than 9/greatr than 9/' "8:[0-9]+: huge: there is no criterion 'greatr than 9'; did you mean 'greater than 9'. $all_forms"
+wrong 's/greater than 9/at least 9/' "8:[0-9]+: huge: there is no criterion 'at least 9' $all_forms"
+wrong 's/greater than 9/greater than nine/' "8:[0-9]+: huge: 'greater than nine' is not a criterion, expected behind 'greater than': one number without unit"
+wrong 's/greater than 9/between 9 and 8/' "8:[0-9]+: huge: .* expected behind 'between': two numbers, the lower one first"
+wrong 's/given: 2, value/given: two, value/' "10:[0-9]+: ours: 'within' needs a number in 'given', not 'two'"
 wrong 's/case: mine/case: mien/' "4:11: case: there is no sweep or case 'mien'; did you mean 'mine'"
 wrong 's/value: mine.r, criterion: within/value: mine\/III.r, criterion: within/' "10:[0-9]+: ours: there is no point 'III'"
 wrong 's/reason: because/unit: m/' "11:[0-9]+: more: 'form' needs a 'reason'"

@@ -215,4 +215,11 @@ expect 4 'cannot read the folder' "$scree" report nowhere
 # --- reproduce: what has no case is not available, and the page is written all the same
 expect 2 'there is no built-in sweep of this name' "$scree" reproduce --only nothing
 expect 0 'biaxial-timescales ' "$scree" list --sweeps
+# Quick forms that judge nothing are left out (nothing is run into a folder that cannot be), unless they are asked for.
+expect 4 '^rotation-velocity: left out: it judges nothing in the quick form; --only rotation-velocity runs it$' "$scree" reproduce -o /dev/null/x
+grep -q '^--- rotation-velocity$' <<<"$output" && complain "what judges nothing is run"
+grep -q '^--- rotation-length$' <<<"$output" || complain "what judges something is left out"
+expect 4 '^--- rotation-velocity$' "$scree" reproduce -o /dev/null/x --only rotation-velocity
+expect 4 '^--- rotation-velocity$' "$scree" reproduce --full -o /dev/null/x
+grep -q 'left out' <<<"$output" && complain "a full form is left out"
 finish ""
