@@ -9,8 +9,10 @@
 #include <stdbool.h>
 
 enum {
-    SCREE_ROTATION_BINS = 64,   ///< of the distance
-    SCREE_ROTATION_SECTORS = 36 ///< of the rose
+    SCREE_ROTATION_BINS = 64,    ///< of the distance
+    SCREE_ROTATION_SECTORS = 36, ///< of the rose
+    SCREE_ROTATION_FORCES = 5,   ///< bins of the transmission per contact by its force
+    SCREE_ROTATION_ANGLES = 6    ///< by its direction, of 15 degrees
 };
 
 /// How far the body in `row` has turned: 2D: |angle| [rad], over the time it was counted a mean spin, in which waves
@@ -128,16 +130,26 @@ scree_status scree_rotation_alignment_measure(const scree_model *model, const sc
 /// A geometric mean over contacts; NAN without any.
 typedef struct scree_rotation_handed {
     double value;
+    double low, high; ///< its interval of 95 % (normal, of the logarithms); NAN with fewer than two
+    double force;     ///< 1, mean of the forces over the mean force
+    double angle;     ///< rad, mean of the angles to the major direction of the stress
     size_t count;
 } scree_rotation_handed;
 
 /// Transmission per contact: amount of the body further from the forced one over that of the nearer one, over the
 /// contacts of bodies that count, whose nearer one lies within `cutoff` mean diameters and turns by at least `limit` of
 /// the forced one (what is felt: the decay's); contacts of the forced body, whose spin is prescribed, are left out.
+/// The major direction is that of the largest compression of the sample, from the forces of all its contacts.
 typedef struct scree_rotation_transmission {
     scree_rotation_handed strong, weak; ///< contacts that lead outward within 45 degrees: above the mean force, others
     scree_rotation_handed aside;        ///< the rest
+    scree_rotation_handed by_force[SCREE_ROTATION_FORCES]; ///< all of them, between scree_rotation_force_edges
+    scree_rotation_handed by_angle[SCREE_ROTATION_ANGLES]; ///< all, by the angle of the branch to the major direction
+    double major[3];                                       ///< unit vector
 } scree_rotation_transmission;
+
+/// Ends of the bins of by_force, in mean forces; the last is infinite.
+extern const double scree_rotation_force_edges[SCREE_ROTATION_FORCES + 1];
 
 /// Errors: none.
 void scree_rotation_transmission_measure(const scree_model *model, const scree_state *state,

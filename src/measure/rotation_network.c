@@ -44,27 +44,25 @@ static bool see_segment(const scree_state *state, const scree_contact *contact, 
     return out->distance <= cutoff;
 }
 
-/// Eigenvalues, falling, and unit eigenvectors of the symmetric part, in the first `dimension` directions.
-static void find_axes(int dimension, scree_rotation_network *network)
+void scree_rotation_axes(int dimension, const double tensor[9], double value[3], scree_vector axis[3])
 {
     const size_t size = (size_t)dimension;
     double data[9], vectors[9], values[3], room[12];
     for (size_t i = 0; i < size; i++)
-        for (size_t j = 0; j < size; j++)
-            data[size * i + j] = 0.5 * (network->tensor[3 * i + j] + network->tensor[3 * j + i]);
+        for (size_t j = 0; j < size; j++) data[size * i + j] = 0.5 * (tensor[3 * i + j] + tensor[3 * j + i]);
     gsl_matrix_view matrix = gsl_matrix_view_array(data, size, size);
     gsl_matrix_view columns = gsl_matrix_view_array(vectors, size, size);
-    gsl_vector_view value = gsl_vector_view_array(values, size);
+    gsl_vector_view falling = gsl_vector_view_array(values, size);
     // The workspace is GSL's own struct on a stack of ours: three rows of `size`.
     gsl_eigen_symmv_workspace workspace = {size, room, room + 3, room + 6, room + 9};
-    (void)gsl_eigen_symmv(&matrix.matrix, &value.vector, &columns.matrix, &workspace);
-    (void)gsl_eigen_symmv_sort(&value.vector, &columns.matrix, GSL_EIGEN_SORT_VAL_DESC);
+    (void)gsl_eigen_symmv(&matrix.matrix, &falling.vector, &columns.matrix, &workspace);
+    (void)gsl_eigen_symmv_sort(&falling.vector, &columns.matrix, GSL_EIGEN_SORT_VAL_DESC);
     for (size_t k = 0; k < size; k++) {
-        network->value[k] = values[k];
-        for (size_t i = 0; i < size; i++) network->axis[k][i] = vectors[size * i + k];
+        value[k] = values[k];
+        for (size_t i = 0; i < size; i++) axis[k][i] = vectors[size * i + k];
         // Of the two directions the one with a positive last component, so that the answer is unique.
-        if (network->axis[k][size - 1] < 0)
-            for (size_t i = 0; i < size; i++) network->axis[k][i] = -network->axis[k][i];
+        if (axis[k][size - 1] < 0)
+            for (size_t i = 0; i < size; i++) axis[k][i] = -axis[k][i];
     }
 }
 
@@ -114,7 +112,7 @@ void scree_rotation_network_measure(const scree_model *model, const scree_state 
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) network->tensor[3 * i + j] += s.outward[i] * s.branch[j] * s.force / s.distance;
     }
-    find_axes(state->dimension, network);
+    scree_rotation_axes(state->dimension, network->tensor, network->value, network->axis);
     for (size_t c = 0; c < table->count; c++)
         if (see_segment(state, &table->contact[c], forced, limit, mean, &s))
             network->rose[scree_rotation_sector(state->dimension, network, s.outward)] +=

@@ -25,6 +25,10 @@ static inline double scree_rotation_force(const scree_contact *contact)
 /// Over the contacts between bodies [N]; NAN without any.
 double scree_rotation_mean_force(const scree_contact_table *table);
 
+/// Eigenvalues, falling, and unit eigenvectors of the symmetric part of `tensor`, in the first `dimension` directions;
+/// the others stay as they are.
+void scree_rotation_axes(int dimension, const double tensor[9], double value[3], scree_vector axis[3]);
+
 /// The sector of the rose that the unit vector `outward` points into.
 size_t scree_rotation_sector(int dimension, const scree_rotation_network *network, const scree_vector outward);
 

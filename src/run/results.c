@@ -173,16 +173,32 @@ static double confine_friction(const scree_model *model)
     return NAN;
 }
 
+/// The first row of the last stage; the number of rows where it has less than two.
+static size_t first_of_last_stage(const scree_series *series)
+{
+    const double *stage = scree_series_get(series, "stage");
+    size_t last = series->row_count, first = last;
+    while (first > 0 && stage[first - 1] == stage[last - 1]) first--;
+    return last - first < 2 ? last : first;
+}
+
 /// What the last stage begins with: two runs of the same seed had the same sample if and only if it is the same to all
 /// digits. (The coordination may differ: the boundary of the last stage may have no plates.)
 static void summarise_start(const scree_series *series, const scree_model *model, scree_summary *summary)
 {
-    const double *stage = scree_series_get(series, "stage");
-    size_t last = series->row_count, first = last;
+    const size_t first = first_of_last_stage(series);
     scree_summary_set_number(summary, "confine_friction", confine_friction(model));
-    while (first > 0 && stage[first - 1] == stage[last - 1]) first--;
-    if (last - first < 2) return;
+    if (first == series->row_count) return;
     scree_summary_set_number(summary, "solid_fraction_at_start", scree_series_get(series, "solid_fraction")[first]);
+}
+
+/// The coordination that the last stage begins with, of a sample that is loaded without being strained; a heap, which
+/// has no boundary and so no solid fraction, is not loaded.
+static void summarise_unstrained(const scree_series *series, scree_summary *summary)
+{
+    const size_t first = first_of_last_stage(series);
+    if (first == series->row_count || isnan(scree_series_get(series, "solid_fraction")[first])) return;
+    scree_summary_set_number(summary, "coordination_at_start", scree_series_get(series, "coordination")[first]);
 }
 
 /// The contacts of now: the last sample may be older than the end, or from before a restart.
@@ -207,6 +223,8 @@ static void summarise_series(const scree_series *series, const scree_state *stat
     if (find_loading(series, &l)) {
         summarise_loading(&l, state, summary);
         summarise_volume(&l, series, summary);
+    } else {
+        summarise_unstrained(series, summary);
     }
     if (series->row_count == 0) return;
     static const char *const finals[] = {"coordination",

@@ -51,6 +51,26 @@ static void write_rose(FILE *file, const scree_simulation *s, const findings *f)
     }
 }
 
+/// One bin of the transmission per contact, between two forces and two angles [degrees].
+static void write_bin(FILE *file, const double force[2], double low, double high, const scree_rotation_handed *bin)
+{
+    fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%zu\n", force[0], force[1], low, high, bin->force,
+            180 / M_PI * bin->angle, bin->value, bin->low, bin->high, bin->count);
+}
+
+static void write_handed(FILE *file, const scree_simulation *s, const findings *f)
+{
+    (void)s;
+    const double width = 90.0 / SCREE_ROTATION_ANGLES, all[2] = {0, INFINITY};
+    fputs("force_low [1],force_high [1],angle_low [degree],angle_high [degree],force [1],angle [degree],"
+          "rotation_ratio [1],ratio_low [1],ratio_high [1],count [1]\n",
+          file);
+    for (int k = 0; k < SCREE_ROTATION_FORCES; k++)
+        write_bin(file, &scree_rotation_force_edges[k], 0, 90, &f->transmission.by_force[k]);
+    for (int k = 0; k < SCREE_ROTATION_ANGLES; k++)
+        write_bin(file, all, k * width, (k + 1) * width, &f->transmission.by_angle[k]);
+}
+
 /// Rotation of the body in `row` about the axis of the forced one, over its: counter-clockwise like it is positive.
 static double turned_with(const scree_state *state, size_t row, size_t forced)
 {
@@ -175,6 +195,7 @@ scree_status scree_rotation_conclude(const scree_conclusion *run, scree_error *e
     if (!status) summarise(s, &f, run->summary);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_DECAY, write_decay, s, &f, error);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_ROSE, write_rose, s, &f, error);
+    if (!status) status = write_table(directory, SCREE_FILE_ROTATION_HANDED, write_handed, s, &f, error);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_BODIES, write_bodies, s, &f, error);
     return status;
 }

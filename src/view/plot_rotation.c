@@ -1,6 +1,6 @@
 /// The figures of a stage rotate_particle, from its tables (run/rotation_results.h), the summary and the last snapshot:
-/// decay of rotations with distance, rose of W with the axes of T, and a map of the rotations under the force network.
-/// A run without such a stage has no such tables, and none of these figures.
+/// decay of rotations with distance, rose of W with the axes of T, transmission per contact, and a map of the rotations
+/// under the force network. A run without such a stage has no such tables, and none of these figures.
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -21,6 +21,7 @@
 #define FILE_DECAY  "rotation-decay.csv"
 #define FILE_ROSE   "rotation-rose.csv"
 #define FILE_BODIES "rotation-bodies.csv"
+#define FILE_HANDED "rotation-handed.csv"
 
 enum { BLUE = 1, VERMILLION, GREEN, PINK, SKY, ORANGE, BLACK };
 
@@ -318,6 +319,92 @@ static scree_status draw_rose(const scree_plot_run *run, const scree_figure_job 
     return status;
 }
 
+// ---- transmission per contact ------------------------------------------------------------------------------------
+
+typedef struct handed_columns {
+    const double *angle_low, *angle_high, *force, *angle, *ratio, *low, *high, *count;
+} handed_columns;
+
+static scree_status get_handed(const scree_series *table, handed_columns *c, scree_error *error)
+{
+    const struct {
+        const char *name;
+        const double **column;
+    } wanted[] = {
+        {"angle_low", &c->angle_low},  {"angle_high", &c->angle_high}, {"force", &c->force},     {"angle", &c->angle},
+        {"rotation_ratio", &c->ratio}, {"ratio_low", &c->low},         {"ratio_high", &c->high}, {"count", &c->count}};
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted && !status; k++)
+        status = get_column(table, FILE_HANDED, wanted[k].name, wanted[k].column, error);
+    return status;
+}
+
+/// Rows of the table from `first` on against their force or their angle.
+static scree_status chart_handed(const char *path, const handed_columns *c, const double *x, size_t first, size_t count,
+                                 const char *label, scree_error *error)
+{
+    char title[120];
+    double contacts = 0, end[2] = {0, 0}, none[2] = {1, 1};
+    for (size_t k = first; k < first + count; k++) {
+        contacts += c->count[k];
+        if (isfinite(x[k])) end[1] = fmax(end[1], x[k]);
+    }
+    (void)snprintf(title, sizeof title, "Rotations that %.0f contacts hand on, bars of 95 %%", contacts);
+    const scree_chart_line line[] = {
+        {.x = x + first,
+         .y = c->ratio + first,
+         .low = c->low + first,
+         .high = c->high + first,
+         .count = count,
+         .label = "mean of the contacts in a bin",
+         .points = true,
+         .colour = BLUE},
+        {.x = end, .y = none, .count = 2, .label = "nothing is lost", .dashed = true, .colour = BLACK},
+    };
+    scree_chart chart = {.title = title,
+                         .x_label = label,
+                         .y_label = "spin of the outer disc over that of the inner one (1)",
+                         .line = line,
+                         .line_count = sizeof line / sizeof *line};
+    return scree_chart_draw(path, &chart, error);
+}
+
+static scree_status has_handed(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    (void)job;
+    if (has_file(run, FILE_HANDED)) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", FILE_HANDED);
+}
+
+/// The rows by force come first; behind them those of all forces, by angle.
+static scree_status draw_handed(const scree_plot_run *run, const scree_figure_job *job, bool by_angle,
+                                scree_error *error)
+{
+    scree_series table;
+    handed_columns c;
+    scree_status status = read_table(run, FILE_HANDED, &table, error);
+    if (!status) status = get_handed(&table, &c, error);
+    if (!status) {
+        size_t forces = 0;
+        while (forces < table.row_count && c.angle_low[forces] == 0 && c.angle_high[forces] == 90) forces++;
+        status = by_angle ? chart_handed(job->path, &c, c.angle, forces, table.row_count - forces,
+                                         "angle to the major direction of the stress (degrees)", error)
+                          : chart_handed(job->path, &c, c.force, 0, forces, "force over the mean force (1)", error);
+    }
+    scree_series_destroy(&table);
+    return status;
+}
+
+static scree_status draw_handed_force(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    return draw_handed(run, job, false, error);
+}
+
+static scree_status draw_handed_angle(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    return draw_handed(run, job, true, error);
+}
+
 // ---- map ---------------------------------------------------------------------------------------------------------
 
 static scree_status has_last(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
@@ -399,6 +486,13 @@ static const rotation_row rows[] = {
     {{"rotation-rose", "radial strength of the contacts near the forced particle by direction", SCREE_USUAL},
      has_plane,
      draw_rose},
+    {{"rotation-handed-force", "spin that contacts hand on by their force", SCREE_USUAL},
+     has_handed,
+     draw_handed_force},
+    {{"rotation-handed-angle", "spin that contacts hand on by their angle to the major direction of the stress",
+      SCREE_USUAL},
+     has_handed,
+     draw_handed_angle},
     {{"rotation-map", "particles coloured by their spin over that of the forced one, with the contact forces",
       SCREE_USUAL},
      has_last,

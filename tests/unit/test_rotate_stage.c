@@ -3,6 +3,8 @@
 #include "run_fixture.h"
 
 #include "io_scratch.h"
+
+#include "io/series.h"
 #include "measure/rotation.h"
 #include "run/stage_rotate_config.h"
 
@@ -223,10 +225,41 @@ static void a_crystal_turns_like_gears(void **unused)
     }
 }
 
+/// What the run tells of its begin, and of each contact: both ways of sorting them have all of them.
+static void the_run_tells_its_begin_and_its_contacts(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    char line[2048], text[64], path[sizeof scratch + 32];
+    scree_error error;
+    scree_series series, handed;
+    assert_int_equal(parse(DISCS, NULL, 0, &c, line), SCREE_OK);
+    const scree_run_options options = {.output = scratch, .threads = 1, .force = true};
+    check(scree_run(c, &options, &error), &error);
+    scree_case_free(c);
+    (void)snprintf(path, sizeof path, "%s/series.csv", scratch);
+    check(scree_series_read(&series, path, &error), &error);
+    const double *stage = scree_series_get(&series, "stage"), *contacts = scree_series_get(&series, "coordination");
+    size_t first = 0;
+    while (stage[first] < 2) first++;
+    check(scree_result_get(scratch, "coordination_at_start", text, sizeof text, &error), &error);
+    assert_true(contacts[first] > 2 && fabs(strtod(text, NULL) - contacts[first]) < 1e-6);
+    (void)snprintf(path, sizeof path, "%s/rotation-handed.csv", scratch);
+    check(scree_series_read(&handed, path, &error), &error);
+    assert_int_equal(handed.row_count, SCREE_ROTATION_FORCES + SCREE_ROTATION_ANGLES);
+    const double *count = scree_series_get(&handed, "count");
+    double sum[2] = {0, 0};
+    for (size_t k = 0; k < handed.row_count; k++) sum[k >= SCREE_ROTATION_FORCES] += count[k];
+    assert_true(sum[0] > 0 && sum[0] == sum[1]);
+    scree_series_destroy(&handed);
+    scree_series_destroy(&series);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_spin_follows_the_ramp),
+        cmocka_unit_test_setup_teardown(the_run_tells_its_begin_and_its_contacts, make_scratch, remove_scratch),
         cmocka_unit_test(the_ledger_closes_with_the_work_of_the_torque),
         cmocka_unit_test(threads_and_restarts_give_the_same_bits),
         cmocka_unit_test(what_cannot_work_is_refused),

@@ -354,6 +354,54 @@ static void contacts_hand_on_what_their_bodies_say(void **unused)
     }
 }
 
+/// Bodies in pairs that touch, radially from the forced one, on both sides of the major direction, which is y: by force
+/// over the mean of 4 N and by angle each bin is known, and so are its mean and its interval.
+static void contacts_are_sorted_by_force_and_angle(void **unused)
+{
+    (void)unused;
+    static const double angle[] = {5, 20, 35, 50, 65, 80}, force[] = {10, 7, 5, 3, 1, 1.2}, spread = 1.3;
+    enum { PAIRS = 14 }; // the last two do not count: their force makes the mean one 4 N
+    cluster c = {.model = {.dimension = 2, .mean_radius = RADIUS}};
+    assert_int_equal(scree_state_create(&c.state, 2, 1 + 2 * PAIRS, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&c.table.contact, PAIRS, sizeof *c.table.contact, NULL), SCREE_OK);
+    c.state.row[0] = (scree_row){.radius = RADIUS, .mass = 1};
+    c.state.angle[0] = 0.03;
+    for (size_t k = 0; k < PAIRS; k++) {
+        const bool counts = k < PAIRS - 2;
+        const double side = k % 2 ? 1 : -1, turn = counts ? side * angle[k / 2] * M_PI / 180 : 0;
+        for (size_t end = 0; end < 2; end++) {
+            const size_t row = 1 + 2 * k + end;
+            const double distance = (3 + (double)end) * 2 * RADIUS;
+            c.state.row[row] =
+                (scree_row){.x = distance * sin(turn), .y = distance * cos(turn), .radius = RADIUS, .mass = 1};
+            c.state.sum[row].contacts = counts ? 2 : 1;
+            c.state.angle[row] = end == 0 ? 0.01 : -0.01 / (double)(2 + k / 2) * pow(spread, side);
+        }
+        add_contact(&c, 1 + 2 * k, 2 + 2 * k, counts ? force[k / 2] : 0.8);
+        scree_contact *contact = &c.table.contact[k];
+        for (int i = 0; i < 3; i++) contact->normal[i] = contact->branch[i] / (2 * RADIUS);
+    }
+    scree_rotation_transmission t;
+    scree_rotation_transmission_measure(&c.model, &c.state, &c.table, 0, 10, 0.1, &t);
+    assert_true(fabs(t.major[1] - 1) < 1e-12);
+    for (size_t k = 0; k < 6; k++) {
+        const scree_rotation_handed *bin = &t.by_angle[k];
+        const double value = 1 / (double)(2 + k), width = exp(1.959964 * log(spread));
+        assert_int_equal(bin->count, 2);
+        assert_true(fabs(bin->value / value - 1) < 1e-9 && fabs(bin->low * width / value - 1) < 1e-9);
+        assert_true(fabs(bin->high / width / value - 1) < 1e-9 && fabs(bin->force - force[k] / 4) < 1e-9);
+        assert_true(fabs(bin->angle - angle[k] * M_PI / 180) < 1e-9);
+    }
+    // 2.5, 1.75, 1.25, 0.75 of the mean have a bin each, 0.25 and 0.3 one together.
+    for (size_t k = 0; k < 4; k++) assert_true(fabs(t.by_force[4 - k].value * (double)(2 + k) - 1) < 1e-9);
+    assert_int_equal(t.by_force[0].count, 4);
+    assert_true(fabs(t.by_force[0].value - 1 / sqrt(6 * 7)) < 1e-9 && fabs(t.by_force[0].force - 1.1 / 4) < 1e-9);
+    // What turns by less than is felt hands on nothing.
+    scree_rotation_transmission_measure(&c.model, &c.state, &c.table, 0, 10, 0.4, &t);
+    assert_true(t.by_angle[0].count == 0 && isnan(t.by_angle[0].value) && isnan(t.by_force[0].low));
+    destroy(&c);
+}
+
 static void an_isotropic_network_has_an_isotropic_tensor(void **unused)
 {
     (void)unused;
@@ -486,6 +534,7 @@ int main(void)
         cmocka_unit_test(bodies_that_nothing_holds_do_not_count),
         cmocka_unit_test(rotations_behind_a_strong_chain),
         cmocka_unit_test(contacts_hand_on_what_their_bodies_say),
+        cmocka_unit_test(contacts_are_sorted_by_force_and_angle),
         cmocka_unit_test(an_isotropic_network_has_an_isotropic_tensor),
         cmocka_unit_test(radial_and_tangential_segments),
         cmocka_unit_test(rotations_that_follow_chains_correlate),
