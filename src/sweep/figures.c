@@ -348,8 +348,9 @@ static bool draw_line(const scree_sweep_results *results, const related *r, size
     return true;
 }
 
-static void draw_relation(const scree_sweep_results *results, const char *name_x, const char *name_y)
+static void draw_relation(const scree_sweep_results *results, const scree_sweep_relation *relation)
 {
+    const char *name_x = relation->x, *name_y = relation->y;
     const scree_sweep *sweep = results->sweep;
     related r = {.x = measure_named(sweep, name_x, ""), .y = measure_named(sweep, name_y, "")};
     r.closed_x = theory_of(sweep, r.x);
@@ -378,7 +379,12 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
     name_label(x_label, name_x, unit_of(name_x));
     name_label(y_label, name_y, unit_of(name_y));
     write_title(title, results, lines > 1 && theory ? "closed forms as lines" : "");
-    scree_chart chart = {.title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = count};
+    scree_chart chart = {.title = title,
+                         .x_label = x_label,
+                         .y_label = y_label,
+                         .line = line,
+                         .line_count = count,
+                         .log_y = relation->log_y};
     (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);
     if (count == (theory ? 2 : 1) * lines) draw(results, name, &chart);
     for (size_t i = 0; i < 2 * MOST_LINES; i++) scree_release(&s[i].x);
@@ -390,6 +396,5 @@ void scree_sweep_draw_measures(const scree_sweep_results *results)
     for (size_t dimension = 0; dimension < sweep->dimension_count; dimension++)
         for (size_t k = 0; k < sweep->measure_count && sweep->dimension[dimension].count > 1; k++)
             if (!is_theory(sweep, k)) draw_measure(results, k, dimension);
-    for (int64_t i = 0; i < sweep->config.relation_count; i++)
-        draw_relation(results, sweep->config.relations[i].x, sweep->config.relations[i].y);
+    for (int64_t i = 0; i < sweep->config.relation_count; i++) draw_relation(results, &sweep->config.relations[i]);
 }

@@ -61,6 +61,7 @@ typedef scree_sweep_relation relation;
 static const scree_key relation_keys[] = {
     TEXT(relation, x, "63", .meaning = "One of the measures."),
     TEXT(relation, y, "63", .meaning = "Another one, drawn over it."),
+    KEY(relation, log_y, SCREE_KEY_FLAG, .standard = "no", .meaning = "Whether its axis is logarithmic."),
 };
 static const scree_section relation_table[] = {TABLE("relations", "One measure over another.", relation_keys)};
 

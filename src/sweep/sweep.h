@@ -37,6 +37,7 @@ typedef struct scree_sweep_curve {
 
 typedef struct scree_sweep_relation {
     char *x, *y; ///< measures
+    bool log_y;
 } scree_sweep_relation;
 
 /// Each member is a search for a limit by runs (bisect.c), not a run.

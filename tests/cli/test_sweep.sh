@@ -80,6 +80,10 @@ expect 0 'means in lines/table.csv' "$scree" sweep lines.yaml -o lines --jobs 2
 for friction in 0.2 0.5; do
     grep -q "friction $friction" lines/figures/peak_stress_ratio-over-steps.gp || complain "no line is called friction $friction"
 done
+grep -q 'set logscale y' lines/figures/peak_stress_ratio-over-steps.gp && complain "a relation has a logarithmic axis"
+sed -i 's/y: peak_stress_ratio}/y: peak_stress_ratio, log_y: yes}/' lines.yaml
+expect 0 'means in lines/table.csv' "$scree" sweep lines.yaml -o lines --collect
+grep -q 'set logscale y' lines/figures/peak_stress_ratio-over-steps.gp || complain "no relation has a logarithmic axis"
 touch stamp
 expect 0 '4 of 4 members are done' "$scree" sweep tiny.yaml -o s
 [ -n "$(find s/members -name run.h5 -newer stamp)" ] && complain "a finished member was run again"
