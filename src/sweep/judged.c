@@ -30,7 +30,7 @@ static bool table_judges(const scree_statement_table *table, const char *sweep, 
             const scree_statement *s = &table->cases[i].statements[k];
             double ignored;
             scree_error error;
-            if (s->form != other && scree_expression_evaluate(s->value, look_at, &l, &ignored, &error)) continue;
+            if (s->form != other) (void)scree_expression_evaluate(s->value, look_at, &l, &ignored, &error);
         }
     return l.found;
 }
