@@ -21,18 +21,24 @@ static double look_at(void *user, const char *name)
     return 1;
 }
 
-static bool table_judges(const scree_statement_table *table, const char *sweep, bool quick)
+/// Whether its value names the sweep.
+static bool statement_judges(const scree_statement *statement, const char *sweep)
 {
     looking l = {sweep, false};
+    double ignored;
+    scree_error error;
+    return !scree_expression_evaluate(statement->value, look_at, &l, &ignored, &error) && l.found;
+}
+
+static bool table_judges(const scree_statement_table *table, const char *sweep, bool quick)
+{
     const int other = quick ? SCREE_FORM_FULL : SCREE_FORM_QUICK;
     for (int64_t i = 0; i < table->case_count; i++)
-        for (int64_t k = 0; k < table->cases[i].statement_count && !l.found; k++) {
+        for (int64_t k = 0; k < table->cases[i].statement_count; k++) {
             const scree_statement *s = &table->cases[i].statements[k];
-            double ignored;
-            scree_error error;
-            if (s->form != other) (void)scree_expression_evaluate(s->value, look_at, &l, &ignored, &error);
+            if (s->form != other && statement_judges(s, sweep)) return true;
         }
-    return l.found;
+    return false;
 }
 
 bool scree_report_judges(const char *sweep, bool quick)
