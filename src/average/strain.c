@@ -77,21 +77,42 @@ static scree_status list_contacts(scree_average_strain *strain, scree_error *err
     return SCREE_OK;
 }
 
+/// Outline of a grain as it lay at first; `turned`: room for its corners.
+static scree_core initial_core(const scree_average_sample *sample, const scree_average_grain *grain,
+                               double (*turned)[2])
+{
+    if (grain->corner_count == 0) return (scree_core){.rounding = grain->radius};
+    const double angle = grain->angle - grain->turn;
+    scree_polygon_turn((int)grain->corner_count, (const double(*)[2])sample->corner + grain->first_corner, cos(angle),
+                       sin(angle), turned);
+    return (scree_core){.corner = (const double(*)[2])turned,
+                        .count = (int)grain->corner_count,
+                        .bound = grain->radius - grain->rounding,
+                        .rounding = grain->rounding};
+}
+
 /// Cells of the initial centres with their gradients; none where the centres have no triangulation.
 static scree_status make_cells(scree_average_strain *strain, scree_error *error)
 {
     const scree_average_sample *sample = strain->sample;
     scree_assembly assembly = {.dimension = sample->dimension, .thickness = sample->thickness};
+    scree_outlines *outlines = &assembly.outlines;
     double *moved = NULL;
     scree_error problem;
     scree_status status = scree_allocate(&strain->place, 3 * sample->count, sizeof *strain->place, error);
     if (!status) status = scree_allocate(&assembly.radius, sample->count, sizeof *assembly.radius, error);
     if (!status) status = scree_allocate(&moved, 3 * sample->count, sizeof *moved, error);
+    if (!status && sample->corner_count > 0) {
+        status = scree_allocate(&outlines->core, sample->count, sizeof *outlines->core, error);
+        if (!status) status = scree_allocate(&outlines->corner, sample->corner_count, sizeof *outlines->corner, error);
+    }
     for (size_t p = 0; p < sample->count && !status; p++) {
         const scree_average_grain *grain = &sample->grain[p];
         if (!grain->counted || !grain->moved || sample->own[p].contacts == 0) continue;
         scree_subtract(grain->position, grain->displacement, strain->place + 3 * assembly.count);
         memcpy(moved + 3 * assembly.count, grain->displacement, sizeof grain->displacement);
+        if (outlines->core)
+            outlines->core[assembly.count] = initial_core(sample, grain, outlines->corner + grain->first_corner);
         assembly.radius[assembly.count++] = grain->radius;
     }
     assembly.position = strain->place;
@@ -99,6 +120,7 @@ static scree_status make_cells(scree_average_strain *strain, scree_error *error)
         status = scree_allocate(&strain->gradient, strain->cells.count, sizeof *strain->gradient, error);
         if (!status) scree_cells_gradient(&strain->cells, strain->place, moved, strain->gradient);
     }
+    scree_outlines_destroy(outlines);
     scree_release(&assembly.radius);
     scree_release(&moved);
     return status;

@@ -36,6 +36,7 @@
 #include "measure/measure.h"
 #include "measure/outline.h"
 #include "search/delaunay.h"
+#include "shape/outlines.h"
 #include "state/deformation.h"
 #include "state/fields.h"
 #include "state/pressure.h"
@@ -48,12 +49,14 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
                               scree_error *error)
 {
     double *points = NULL, *radius = NULL;
+    scree_outlines outlines = {0};
     scree_peel_rule rule;
     uint32_t *past = NULL;
     scree_grain_place *grain = NULL;
     size_t grains = 0;
     scree_status status = scree_grain_places(state, &grain, &grains, error);
     if (!status) status = scree_facet_rule(model, state, grain, grains, &rule, &past, error);
+    if (!status) status = scree_outlines_find(state, &outlines, error);
     if (!status) status = scree_allocate(&points, 2 * grains, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, grains, sizeof *radius, error);
     if (!status) {
@@ -62,11 +65,13 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
             points[2 * k + 1] = grain[k].position[1];
             radius[k] = grain[k].radius;
         }
+        rule.outline = outlines.core;
         status = scree_outer_loop(points, radius, grains, 2 * model->mean_radius, &rule, ids, count, error);
     }
     for (size_t k = 0; k < *count && !status; k++) (*ids)[k] = (uint32_t)grain[(*ids)[k]].id;
     scree_release(&grain);
     scree_release(&past);
+    scree_outlines_destroy(&outlines);
     scree_release(&points);
     scree_release(&radius);
     return status;

@@ -27,6 +27,7 @@ scree_status scree_assembly_of_state(const scree_model *model, const scree_state
     if (!status) status = scree_allocate(&assembly->id, assembly->count, sizeof *assembly->id, error);
     if (!status) status = scree_allocate(&assembly->position, 3 * assembly->count, sizeof *assembly->position, error);
     if (!status) status = scree_allocate(&assembly->radius, assembly->count, sizeof *assembly->radius, error);
+    if (!status) status = scree_outlines_find(state, &assembly->outlines, error);
     for (size_t k = 0; k < assembly->count && !status; k++) {
         assembly->id[k] = state->id[row[k]];
         scree_body_position(state, row[k], assembly->position + 3 * k);
@@ -42,6 +43,7 @@ void scree_assembly_destroy(scree_assembly *assembly)
     scree_release(&assembly->id);
     scree_release(&assembly->position);
     scree_release(&assembly->radius);
+    scree_outlines_destroy(&assembly->outlines);
     assembly->count = 0;
 }
 
@@ -145,6 +147,7 @@ static scree_status find_triangles(const scree_assembly *assembly, const double 
                                    scree_cells *cells, scree_error *error)
 {
     scree_triangulation triangulation;
+    const scree_peel_rule rule = {.gap_limit = gap_limit, .outline = assembly->outlines.core};
     uint32_t *loop = NULL;
     size_t loop_count;
     scree_status status = scree_triangulation_build(points, assembly->count, &triangulation, error);
@@ -153,8 +156,8 @@ static scree_status find_triangles(const scree_assembly *assembly, const double 
         .count = triangulation.count, .triangle = triangulation.vertex, .triangle_neighbour = triangulation.neighbour};
     status = scree_allocate(&all.outside, all.count, 1, error);
     if (!status)
-        status = scree_boundary_loop(&triangulation, points, assembly->radius, assembly->count,
-                                     SCREE_PEEL_RULE(gap_limit), &loop, &loop_count, all.outside, error);
+        status = scree_boundary_loop(&triangulation, points, assembly->radius, assembly->count, &rule, &loop,
+                                     &loop_count, all.outside, error);
     for (size_t t = 0; t < all.count && !status; t++) {
         const double *p[3];
         for (int n = 0; n < 3; n++) p[n] = points + 2 * (size_t)all.triangle[t][n];

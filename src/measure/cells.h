@@ -12,15 +12,17 @@
 #define SCREE_MEASURE_CELLS_H
 
 #include "contact/contact.h"
+#include "shape/outlines.h"
 
 /// Grains in the order of their ids (the bodies of a membrane are left out).
 typedef struct scree_assembly {
     int dimension;
     double thickness; ///< m, of discs; 1 in 3D
     size_t count;
-    uint32_t *id;     ///< ascending; NULL: 0 .. count - 1
-    double *position; ///< m, count x 3; z = 0 in 2D
-    double *radius;   ///< m, equivalent
+    uint32_t *id;            ///< ascending; NULL: 0 .. count - 1
+    double *position;        ///< m, count x 3; z = 0 in 2D
+    double *radius;          ///< m, equivalent
+    scree_outlines outlines; ///< of the grains, between which gaps are
 } scree_assembly;
 
 /// Positions and radii of the grains of a state; free with scree_assembly_destroy. Errors: memory.
@@ -44,7 +46,7 @@ typedef struct scree_cells {
 } scree_cells;
 
 /// Cells inside the boundary of the assembly at its positions: the loop of search/delaunay.h, the surface of
-/// search/tetrahedra.h. gap_limit: m, as for the boundary. Errors: memory, no triangulation.
+/// search/tetrahedra.h. gap_limit: m, as for the boundary, of the same gaps. Errors: memory, no triangulation.
 /// Cost: O(n log n): Delaunay is nearly all of it.
 scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit, scree_cells *cells,
                                scree_error *error) SCREE_MUST_USE;

@@ -4,7 +4,8 @@
 /// faces alone,
 ///     u_i,j = 1/V sum over faces (mean of u_i over the corners) n_j A,    strain = its symmetric part
 /// with the outline as the places at the begin of the stage have it (boundary.gap_limit cuts cells that reach across
-/// gaps). Tension positive. The outline is found anew for every sample from these places, so nothing is remembered.
+/// gaps; polygons lie in these places as they are turned now, since the angle of the begin is not kept). Tension
+/// positive. The outline is found anew for every sample from these places, so nothing is remembered.
 /// Cost: a triangulation a sample, some 10 microseconds a disc. Limits: a sample that repeats itself has no outline.
 #include "case/case.h"
 #include "case/check.h"
@@ -12,6 +13,7 @@
 #include "module/key_rows.h"
 #include "search/delaunay.h"
 #include "search/tetrahedra.h"
+#include "shape/outlines.h"
 #include "state/body.h"
 
 #include <math.h>
@@ -47,6 +49,7 @@ typedef struct grains {
     uint32_t *row;
     double *place, *radius; ///< m, at the begin
     double (*moved)[3];     ///< m
+    scree_outlines outlines;
 } grains;
 
 static void destroy(grains *g)
@@ -55,6 +58,7 @@ static void destroy(grains *g)
     scree_release(&g->place);
     scree_release(&g->radius);
     scree_release(&g->moved);
+    scree_outlines_destroy(&g->outlines);
 }
 
 static scree_status gather(const scree_state *state, grains *g, scree_error *error)
@@ -65,6 +69,7 @@ static scree_status gather(const scree_state *state, grains *g, scree_error *err
     if (!status) status = scree_allocate(&g->place, axes * g->count + 1, sizeof *g->place, error);
     if (!status) status = scree_allocate(&g->radius, g->count + 1, sizeof *g->radius, error);
     if (!status) status = scree_allocate(&g->moved, g->count + 1, sizeof *g->moved, error);
+    if (!status) status = scree_outlines_find(state, &g->outlines, error);
     for (size_t k = 0; k < g->count && !status; k++) {
         const double *begin = state->reference[g->row[k]];
         scree_vector now;
@@ -146,14 +151,15 @@ static scree_status sample(const scree_context *context, size_t index, double *v
 {
     static const int first[] = {0, 1, 2, 1, 0, 0}, second[] = {0, 1, 2, 2, 2, 1};
     const scree_model *model = context->model;
-    const scree_peel_rule *rule = SCREE_PEEL_RULE(2 * model->mean_radius * model->upkeep.gap_limit);
     const bool in_3d = model->dimension == 3;
     double g[9] = {0};
     grains all;
     (void)index;
     scree_status status = gather(context->state, &all, error);
+    const scree_peel_rule rule = {.gap_limit = 2 * model->mean_radius * model->upkeep.gap_limit,
+                                  .outline = all.outlines.core};
     if (!status)
-        status = in_3d ? surface_gradient(model, &all, rule, g, error) : loop_gradient(model, &all, rule, g, error);
+        status = in_3d ? surface_gradient(model, &all, &rule, g, error) : loop_gradient(model, &all, &rule, g, error);
     for (int k = 0; k < 6; k++) {
         const int i = first[k], j = second[k];
         const bool exists = in_3d || (i != 2 && j != 2);

@@ -2,7 +2,9 @@
 ///
 /// A triangle with an edge a-b on the loop and its third point c inside is cut (a-b is replaced by a-c, c-b) when
 ///   - it is a sliver: the angle at c is above 150 degrees, so c lies all but on the edge; or
-///   - its edge is open: the free gap |x_a - x_b| - R_a - R_b is above the limit (and it is not flat to round-off).
+///   - its edge is open: the free gap between the outlines of a and b (peel_rule.h; of discs |x_a - x_b| - R_a - R_b)
+///   is
+///     above the limit (and it is not flat to round-off).
 /// Both limits have a hysteresis where the loop before is known (peel_rule.h).
 /// Slivers go first, flattest first; then open edges, widest gap first; ties by the indices of the points. Only the
 /// third point matters for what is allowed: if c is already on the loop, the cut would pinch the loop in c or drop a
@@ -92,9 +94,9 @@ static scree_status consider(peeling *peel, uint32_t triangle, int corner, scree
     const double *c = peel->points + 2 * (size_t)edge.third;
     double ca[2] = {a[0] - c[0], a[1] - c[1]}, cb[2] = {b[0] - c[0], b[1] - c[1]}, ab[2] = {b[0] - a[0], b[1] - a[1]};
     double cosine = (ca[0] * cb[0] + ca[1] * cb[1]) / (hypot(ca[0], ca[1]) * hypot(cb[0], cb[1]));
-    double length = hypot(ab[0], ab[1]), gap = length - peel->radius[edge.a] - peel->radius[edge.b];
-    bool flat = ca[0] * cb[1] - ca[1] * cb[0] < FLAT * length * length;
     const uint32_t ends[2] = {edge.a, edge.b};
+    double length = hypot(ab[0], ab[1]), gap = scree_peel_rule_gap(peel->rule, ends, ab, peel->radius);
+    bool flat = ca[0] * cb[1] - ca[1] * cb[0] < FLAT * length * length;
     double share = scree_peel_rule_share(peel->rule, 2, ends);
     edge.sliver = -cosine > cos(SCREE_SLIVER_TURN * (2 - share));
     edge.key = edge.sliver ? -cosine : gap;

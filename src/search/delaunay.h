@@ -27,12 +27,12 @@ typedef enum scree_triangle_mark {
     SCREE_TRIANGLE_CUT,    ///< outside the loop
 } scree_triangle_mark;
 
-/// Outer boundary of the triangulation after cleaning: boundary triangles whose outer edge leaves a free gap
-/// |x_a - x_b| - R_a - R_b above the rule's limit, or which are slivers (an angle above 150 degrees opposite to the
-/// outer edge), are cut, slivers first, then the widest gap first, unless their third point is on the loop already: so
-/// the loop stays ONE simple closed polygon with all points inside or on it. marks[t]: scree_triangle_mark of triangle
-/// t, may be NULL. loop: point indices counter-clockwise from the lowest, caller frees with scree_release. Cost: O(n +
-/// h log h).
+/// Outer boundary of the triangulation after cleaning: boundary triangles whose outer edge leaves a free gap between
+/// the outlines of its bodies (peel_rule.h) above the rule's limit, or which are slivers (an angle above 150 degrees
+/// opposite to the outer edge), are cut, slivers first, then the widest gap first, unless their third point is on the
+/// loop already: so the loop stays ONE simple closed polygon with all points inside or on it. marks[t]:
+/// scree_triangle_mark of triangle t, may be NULL. loop: point indices counter-clockwise from the lowest, caller frees
+/// with scree_release. Cost: O(n + h log h).
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
                                  size_t count, const scree_peel_rule *rule, uint32_t **loop, size_t *loop_count,
                                  uint8_t *marks, scree_error *error) SCREE_MUST_USE;

@@ -1,4 +1,4 @@
-/// Lookup of the facets of the boundary before. Cost: O(log facets) a question.
+/// Lookup of the facets of the boundary before, at O(log facets) a question, and gaps of edges.
 #include "search/peel_rule.h"
 
 #include <stdlib.h>
@@ -49,4 +49,14 @@ double scree_peel_rule_share(const scree_peel_rule *rule, int dimension, const u
     const void *found =
         bsearch(facet, rule->facet, rule->facet_count, size, dimension == 2 ? compare_edges : compare_triangles);
     return found ? 1 + rule->hysteresis : 1 - rule->hysteresis;
+}
+
+double scree_peel_rule_gap(const scree_peel_rule *rule, const uint32_t corner[2], const double apart[2],
+                           const double *radius)
+{
+    scree_core core[2];
+    for (int k = 0; k < 2; k++)
+        core[k] = rule->outline ? rule->outline[rule->index ? rule->index[corner[k]] : corner[k]]
+                                : (scree_core){.rounding = radius[corner[k]]};
+    return scree_core_gap(&core[0], &core[1], apart);
 }

@@ -11,6 +11,7 @@
 #include "search/delaunay.h"
 #include "search/tetrahedra.h"
 #include "selection/selection.h"
+#include "shape/outlines.h"
 #include "state/body.h"
 
 /// 2 x axis, plus 1 for the larger coordinate. The last axis is upwards; the others, in 2D none, are in between.
@@ -26,6 +27,7 @@ typedef struct sample {
     uint32_t *row;
     double *points, *radius; ///< m
     uint8_t *outer;          ///< is on the outline
+    scree_outlines outlines; ///< of the grains
 } sample;
 
 static void destroy(sample *s)
@@ -34,6 +36,7 @@ static void destroy(sample *s)
     scree_release(&s->points);
     scree_release(&s->radius);
     scree_release(&s->outer);
+    scree_outlines_destroy(&s->outlines);
 }
 
 static scree_status gather(const scree_state *state, sample *s, scree_error *error)
@@ -44,6 +47,7 @@ static scree_status gather(const scree_state *state, sample *s, scree_error *err
     if (!status) status = scree_allocate(&s->points, axes * s->count + 1, sizeof *s->points, error);
     if (!status) status = scree_allocate(&s->radius, s->count + 1, sizeof *s->radius, error);
     if (!status) status = scree_allocate(&s->outer, s->count + 1, sizeof *s->outer, error);
+    if (!status) status = scree_outlines_find(state, &s->outlines, error);
     for (size_t k = 0; k < s->count && !status; k++) {
         scree_vector place;
         scree_body_position(state, s->row[k], place);
@@ -55,19 +59,20 @@ static scree_status gather(const scree_state *state, sample *s, scree_error *err
 
 static scree_status find_outline(const scree_model *model, sample *s, scree_error *error)
 {
-    const scree_peel_rule *rule = SCREE_PEEL_RULE(2 * model->mean_radius * model->upkeep.gap_limit);
+    const scree_peel_rule rule = {.gap_limit = 2 * model->mean_radius * model->upkeep.gap_limit,
+                                  .outline = s->outlines.core};
     if (model->dimension == 2) {
         uint32_t *loop = NULL;
         size_t count = 0;
         scree_status status =
-            scree_outer_loop(s->points, s->radius, s->count, 2 * model->mean_radius, rule, &loop, &count, error);
+            scree_outer_loop(s->points, s->radius, s->count, 2 * model->mean_radius, &rule, &loop, &count, error);
         for (size_t k = 0; k < count && !status; k++) s->outer[loop[k]] = 1;
         scree_release(&loop);
         return status;
     }
     scree_triangle_surface surface = {0};
     scree_status status =
-        scree_outer_surface(s->points, s->radius, s->count, 2 * model->mean_radius, rule, &surface, error);
+        scree_outer_surface(s->points, s->radius, s->count, 2 * model->mean_radius, &rule, &surface, error);
     for (size_t k = 0; k < surface.count && !status; k++)
         for (int i = 0; i < 3; i++) s->outer[surface.triangle[k][i]] = 1;
     scree_triangle_surface_destroy(&surface);

@@ -303,13 +303,13 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
     return fmin(least + scree_rounding_of_row(p, row), bound);
 }
 
-static scree_pose_kernel *kernel(void)
+void scree_polygons_turn(const scree_pose *pose)
 {
 #if defined(__x86_64__)
     static scree_pose_kernel *const kernels[] = {[2] = scree_pose_v2, [3] = scree_pose_v3, [4] = scree_pose_v4};
-    return kernels[scree_processor_level()];
+    kernels[scree_processor_level()](pose);
 #else
-    return scree_pose_v0;
+    scree_pose_v0(pose);
 #endif
 }
 
@@ -325,7 +325,7 @@ static void pose_them(scree_state *state, bool all)
     if (!pose.of) return;
     pose.count = state->count;
     if (!all) pose.row = scree_moving_rows(state, &pose.count);
-    kernel()(&pose);
+    scree_polygons_turn(&pose);
 }
 
 void scree_polygons_pose(scree_state *state)
@@ -354,7 +354,7 @@ static void derive_ghosts(scree_state *state, const scree_work *work)
     scree_pose pose = pose_of(p, p->heading);
     pose.count = work->ghosts.away;
     pose.begin = scree_row_count(state, work) - pose.count;
-    if (pose.of && pose.count > 0) kernel()(&pose);
+    if (pose.of && pose.count > 0) scree_polygons_turn(&pose);
 }
 
 // ---- the module --------------------------------------------------------------------------------------------------

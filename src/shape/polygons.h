@@ -74,4 +74,7 @@ double scree_body_inner_radius(const scree_state *state, size_t row);
 /// Renews the posed corners. Cost: one sine and cosine a body, four products a corner.
 void scree_polygons_pose(scree_state *state);
 
+/// Turns corners of any list of bodies, to the same bits.
+void scree_polygons_turn(const scree_pose *pose);
+
 #endif
