@@ -3,8 +3,7 @@
 /// A triangle with an edge a-b on the loop and its third point c inside is cut (a-b is replaced by a-c, c-b) when
 ///   - it is a sliver: the angle at c is above 150 degrees, so c lies all but on the edge; or
 ///   - its edge is open: the free gap between the outlines of a and b (peel_rule.h; of discs |x_a - x_b| - R_a - R_b)
-///   is
-///     above the limit (and it is not flat to round-off).
+///     is above the limit (and it is not flat to round-off).
 /// Both limits have a hysteresis where the loop before is known (peel_rule.h).
 /// Slivers go first, flattest first; then open edges, widest gap first; ties by the indices of the points. Only the
 /// third point matters for what is allowed: if c is already on the loop, the cut would pinch the loop in c or drop a
