@@ -53,7 +53,7 @@ static const scree_key statement_keys[] = {
     TEXT(statement, given, "given", .meaning = "The source's value."),
     TEXT(statement, value, "value", .meaning = "Expression of results, CASE/LABEL.RESULT."),
     TEXT(statement, criterion, "criterion",
-         .meaning = "within 10 %, greater than 2, less than 3, between 2 and 4, or holds."),
+         .meaning = "within 10 %, equivalent within 0.5, greater than 2, less than 3, between 2 and 4, or holds."),
     KEY(statement, class, "kind", SCREE_KEY_CHOICE, .choices = classes, .meaning = "What kind of statement it is."),
     KEY(statement, deterministic, "deterministic", SCREE_KEY_FLAG, .standard = "no",
         .meaning = "It does not depend on the sample: one realisation decides."),
@@ -97,11 +97,10 @@ static bool read_bound(const char *text, const char *end, double *bound)
 }
 
 /// Criteria by how they begin.
-static const char *const criteria[] = {[SCREE_CRITERION_WITHIN] = "within",
-                                       [SCREE_CRITERION_GREATER] = "greater than",
-                                       [SCREE_CRITERION_LESS] = "less than",
-                                       [SCREE_CRITERION_BETWEEN] = "between",
-                                       [SCREE_CRITERION_HOLDS] = "holds"};
+static const char *const criteria[] = {
+    [SCREE_CRITERION_WITHIN] = "within",        [SCREE_CRITERION_EQUIVALENT] = "equivalent within",
+    [SCREE_CRITERION_GREATER] = "greater than", [SCREE_CRITERION_LESS] = "less than",
+    [SCREE_CRITERION_BETWEEN] = "between",      [SCREE_CRITERION_HOLDS] = "holds"};
 
 /// Criterion as text to kind and bounds; false when it is not one.
 static bool read_criterion(scree_statement *s)
@@ -123,6 +122,8 @@ static bool read_criterion(scree_statement *s)
 
 /// What is expected behind each.
 static const char *const behind[] = {[SCREE_CRITERION_WITHIN] = "a share, as in 'within 10 %'",
+                                     [SCREE_CRITERION_EQUIVALENT] =
+                                         "one number without unit, as in 'equivalent within 0.5'",
                                      [SCREE_CRITERION_GREATER] = "one number without unit, as in 'greater than 2'",
                                      [SCREE_CRITERION_LESS] = "one number without unit, as in 'less than 3'",
                                      [SCREE_CRITERION_BETWEEN] = "two numbers, the lower one first, as in 'between 2 "
@@ -132,7 +133,8 @@ static const char *const behind[] = {[SCREE_CRITERION_WITHIN] = "a share, as in 
 /// Notes what is wrong with a criterion: behind its words, or its words, with the nearest right ones.
 static void refuse_criterion(scree_reader *reader, scree_place place, const scree_statement *s)
 {
-    static const char forms_of_all[] = "within 10 %, greater than 2, less than 3, between 2 and 4, holds";
+    static const char forms_of_all[] =
+        "within 10 %, equivalent within 0.5, greater than 2, less than 3, between 2 and 4, holds";
     const char *text = s->criterion;
     for (size_t kind = 0; kind < COUNT(criteria); kind++) {
         const size_t length = strlen(criteria[kind]);
@@ -180,9 +182,10 @@ static void check_statement(scree_reader *reader, scree_statement *s, const scre
     else if (!good)
         scree_problem_add(reader, expression->place, s->id, s->value, "CASE/LABEL.RESULT",
                           "names are not of this form");
-    if (s->kind == SCREE_CRITERION_WITHIN && scree_units_parse(s->given, "1", &s->bound[1], NULL))
-        scree_problem_add(reader, node->place, s->id, s->given, "a number",
-                          "'within' needs a number in 'given', not '%s'", scree_show(s->given).text);
+    const bool about_given = s->kind == SCREE_CRITERION_WITHIN || s->kind == SCREE_CRITERION_EQUIVALENT;
+    if (about_given && scree_units_parse(s->given, "1", &s->bound[1], NULL))
+        scree_problem_add(reader, node->place, s->id, s->given, "a number", "'%s' needs a number in 'given', not '%s'",
+                          criteria[s->kind], scree_show(s->given).text);
     if (s->form != SCREE_FORM_ANY && s->reason && !s->reason[0])
         scree_problem_add(reader, node->place, s->id, NULL, "reason: why the other form cannot decide it",
                           "'form' needs a 'reason'");
@@ -237,6 +240,8 @@ scree_statement_range scree_statement_accepts(const scree_statement *s)
     case SCREE_CRITERION_WITHIN:
         return (scree_statement_range){s->bound[1] - s->bound[0] * fabs(s->bound[1]),
                                        s->bound[1] + s->bound[0] * fabs(s->bound[1]), true};
+    case SCREE_CRITERION_EQUIVALENT:
+        return (scree_statement_range){s->bound[1] - s->bound[0], s->bound[1] + s->bound[0], true};
     case SCREE_CRITERION_GREATER:
         return (scree_statement_range){s->bound[0], INFINITY, false};
     case SCREE_CRITERION_LESS:

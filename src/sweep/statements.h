@@ -5,8 +5,9 @@
 #include "case/document.h"
 
 typedef enum scree_criterion {
-    SCREE_CRITERION_WITHIN,  ///< of the source's value, by a fraction of it
-    SCREE_CRITERION_GREATER, ///< than a number
+    SCREE_CRITERION_WITHIN,     ///< of the source's value, by a fraction of it
+    SCREE_CRITERION_EQUIVALENT, ///< the same by a number, so that the value may be 0
+    SCREE_CRITERION_GREATER,    ///< than a number
     SCREE_CRITERION_LESS,
     SCREE_CRITERION_BETWEEN, ///< two numbers
     SCREE_CRITERION_HOLDS,   ///< the value is a comparison, true in more than half of all samples
@@ -34,7 +35,7 @@ typedef struct scree_statement {
     char *source;       ///< "P table 2.1"
     char *given;        ///< the source's value, as it is shown
     char *value;        ///< expression
-    char *criterion;    ///< "within 10 %", "between 2 and 4", ...
+    char *criterion;    ///< "within 10 %", "equivalent within 0.5", "between 2 and 4", ...
     char *unit;         ///< shown behind our value; "" for none
     int class;          ///< scree_statement_class
     bool deterministic; ///< does not depend on the sample: one decides

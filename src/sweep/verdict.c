@@ -1,10 +1,10 @@
 /// The interval against the range of values that meet the criterion. An end on the bound of "greater than" and "less
-/// than" does not meet it, an end on a bound of "within" and "between" does.
+/// than" does not meet it, an end on a bound of the others does.
 #include "sweep/verdict.h"
 
 double scree_statement_confidence(const scree_statement *statement)
 {
-    return statement->kind == SCREE_CRITERION_WITHIN ? 0.90 : 0.95;
+    return statement->kind == SCREE_CRITERION_WITHIN || statement->kind == SCREE_CRITERION_EQUIVALENT ? 0.90 : 0.95;
 }
 
 scree_verdict scree_verdict_of(const scree_statement *statement, const scree_interval *interval)

@@ -14,8 +14,8 @@ typedef enum scree_verdict {
     SCREE_VERDICTS,
 } scree_verdict;
 
-/// Confidence of the interval that a statement is judged by: 95 %; 90 % for `within`, whose two sides are a one-sided
-/// test of 5 % each.
+/// Confidence of the interval that a statement is judged by: 95 %; 90 % for `within` and `equivalent within`, whose two
+/// sides are a one-sided test of 5 % each.
 double scree_statement_confidence(const scree_statement *statement);
 
 /// AGREES, DIFFERS or UNDECIDED. An interval with an end that is not a number decides nothing.

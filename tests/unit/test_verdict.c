@@ -113,6 +113,13 @@ static void intervals_are_judged_at_their_edges(void **state)
         {"given: 4, value: c.r, criterion: within 25 %", 5, 6, SCREE_UNDECIDED},
         {"given: 4, value: c.r, criterion: within 25 %", 5.001, 6, SCREE_DIFFERS},
         {"given: -4, value: c.r, criterion: within 25 %", -5, -3, SCREE_AGREES},
+        // 2 less and more 1/4: of a value that may be 0.
+        {"given: 2, value: c.r, criterion: equivalent within 0.25", 1.75, 2.25, SCREE_AGREES},
+        {"given: 2, value: c.r, criterion: equivalent within 0.25", 1.749, 2.25, SCREE_UNDECIDED},
+        {"given: 2, value: c.r, criterion: equivalent within 0.25", 1.75, 2.251, SCREE_UNDECIDED},
+        {"given: 2, value: c.r, criterion: equivalent within 0.25", 2.251, 3, SCREE_DIFFERS},
+        {"given: 0, value: c.r, criterion: equivalent within 50 %", -0.5, 0.5, SCREE_AGREES},
+        {"given: 0, value: c.r, criterion: equivalent within 50 %", -0.5, 0.501, SCREE_UNDECIDED},
         {"given: x, value: c.r, criterion: greater than 2", 2.001, 9, SCREE_AGREES},
         {"given: x, value: c.r, criterion: greater than 2", 2, 9, SCREE_UNDECIDED},
         {"given: x, value: c.r, criterion: greater than 2", 1, 2, SCREE_DIFFERS},
@@ -256,6 +263,9 @@ static void within_is_two_one_sided_tests(void **state)
     assert_int_equal(within.verdict, SCREE_AGREES);
     assert_interval(within.interval, 4, 4 - half, 4 + half, 1e-4);
     assert_remark(&within, "");
+    within = answer_to("given: 4, value: s/p.r, criterion: equivalent within 0.2");
+    assert_int_equal(within.verdict, SCREE_AGREES);
+    assert_interval(within.interval, 4, 4 - half, 4 + half, 1e-4);
     assert_int_equal(answer_to("given: 4, value: s/p.r, criterion: between 3.8 and 4.2").verdict, SCREE_UNDECIDED);
 }
 
@@ -437,11 +447,11 @@ static void wrong_tables_are_refused_with_the_nearest_name(void **state)
         int column;
     } wrong[] = {
         {"kind: findng, given: 4, value: s/p.r, criterion: holds", "finding", "there is no kind", 44},
-        {"kind: finding, given: 4, value: s/p.r, criterion: withn 10 %", "within 10 %, greater",
+        {"kind: finding, given: 4, value: s/p.r, criterion: withn 10 %", "within 10 %, equivalent",
          "there is no criterion 'withn 10 %'; did you mean 'within 10 %'?", 0},
-        {"kind: finding, given: 4, value: s/p.r, criterion: near 4", "within 10 %, greater",
+        {"kind: finding, given: 4, value: s/p.r, criterion: near 4", "within 10 %, equivalent",
          "there is no criterion 'near 4'", 0},
-        {"kind: finding, given: 4, value: s/p.r, criterion: within 10 m", "within 10 %, greater",
+        {"kind: finding, given: 4, value: s/p.r, criterion: within 10 m", "within 10 %, equivalent",
          "'within 10 m' is not a criterion, expected behind 'within': a share", 0},
         {"kind: finding, given: 4, value: s/p.r, criterion: between 2 and 1", "",
          "expected behind 'between': two numbers", 0},
