@@ -13,9 +13,7 @@ static const char *const class_names[] = {"finding", "check", "beyond"};
 
 void scree_page_row_head(FILE *file)
 {
-    (void)fputs("\n| id | kind | statement | where | source | criterion | ours | realisations | verdict | form | "
-                "remark |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-                file);
+    (void)fputs(SCREE_PAGE_ROW_HEAD, file);
 }
 
 void scree_page_cell_write(FILE *file, const char *text)

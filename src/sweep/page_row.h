@@ -10,6 +10,9 @@
 void scree_page_cell_write(FILE *file, const char *text);
 
 /// Above the rows of a case.
+#define SCREE_PAGE_ROW_HEAD                                                                                            \
+    "\n| id | kind | statement | where | source | criterion | ours | realisations | verdict | form | remark |\n"       \
+    "|---|---|---|---|---|---|---|---|---|---|---|\n"
 void scree_page_row_head(FILE *file);
 
 /// One row; `first` has what the statement says, `counted` the verdict in bold.

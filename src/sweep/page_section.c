@@ -43,6 +43,43 @@ static bool weigh(const scree_page_section *section, const scree_statement_group
     return true;
 }
 
+static const char *found_in(const scree_page_section *section, const char *text)
+{
+    const char *at = strstr(section->text, text);
+    return at && at < section->text + section->length ? at : NULL;
+}
+
+static bool has_statement(const scree_statement_group *group, const char *id, size_t length)
+{
+    for (int64_t k = 0; k < group->statement_count; k++)
+        if (strlen(group->statements[k].id) == length && memcmp(group->statements[k].id, id, length) == 0) return true;
+    return false;
+}
+
+/// No row of a statement that the table has no more.
+static bool has_its_own_rows(const scree_page_section *section, const scree_statement_group *group)
+{
+    const char *head = found_in(section, SCREE_PAGE_ROW_HEAD);
+    const char *line = head ? head + strlen(SCREE_PAGE_ROW_HEAD) - 1 : NULL;
+    for (; line && strncmp(line, "\n| ", 3) == 0; line = strchr(line + 1, '\n'))
+        if (!has_statement(group, line + 3, strcspn(line + 3, " \n"))) return false;
+    return true;
+}
+
+/// What is said of the case, and of rows without agreement, is what the table says.
+static bool has_its_own_words(const scree_page_section *section, const scree_statement_group *group)
+{
+    bool same = found_in(section, group->meaning);
+    for (int64_t k = 0; k < group->statement_count && same; k++) {
+        const scree_statement *s = &group->statements[k];
+        scree_page_rows rows;
+        const bool told = s->explanation[0] && scree_page_row_read(section->text, section->length, s, &rows) &&
+                          scree_verdict_is_open(rows.verdict);
+        same = !told || found_in(section, s->explanation);
+    }
+    return same;
+}
+
 /// One run of the full form says less than several of another, which give an interval.
 static bool weigh_more(const scree_page_rows *mine, const scree_page_rows *theirs)
 {
@@ -57,6 +94,7 @@ bool scree_page_section_outweighs(const scree_page_section *section, const scree
 {
     scree_page_rows mine, theirs;
     if (section->length == 0 || !weigh(section, group, &mine) || !weigh(other, group, &theirs)) return false;
+    if (!has_its_own_rows(section, group) || !has_its_own_words(section, group)) return false;
     return weigh_more(&mine, &theirs) || theirs.planned == 0;
 }
 

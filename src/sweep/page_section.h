@@ -16,7 +16,8 @@ typedef struct scree_page_section {
 /// The section of a case below the heading of its source. `page`: NULL for none.
 scree_page_section scree_page_section_find(const char *page, const char *source, const char *name);
 
-/// Whether all statements of the case stand there word for word, and rest on more than in `other`: verdicts with an
+/// Whether all statements of the case, and no others, stand there word for word, with what the table says about them,
+/// and rest on more than in `other`: verdicts with an
 /// interval come first, then realisations of the full form, then the others, then those without a value. What rests on
 /// nothing at all outweighs nothing.
 bool scree_page_section_outweighs(const scree_page_section *section, const scree_page_section *other,

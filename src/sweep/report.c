@@ -44,11 +44,6 @@ static void put_notes(const page *p, const scree_statement *s, bool open)
                       s->reason);
 }
 
-static bool is_open(scree_verdict verdict)
-{
-    return verdict == SCREE_DIFFERS || verdict == SCREE_UNDECIDED;
-}
-
 /// One run, or an average over few.
 static bool has_no_interval(const scree_answer *a)
 {
@@ -85,7 +80,8 @@ static scree_status put_answers(const page *p, const scree_statement_group *grou
     scree_answer none = {.verdict = SCREE_NOT_RUN, .interval = {NAN, NAN, NAN, 0}};
     if (counted < 0) scree_page_row_write(file, s, &none, wanted[s->form], true, true);
     *open = false;
-    for (int form = 0; form < SCREE_FINDING_FORMS; form++) *open |= shown[form] && is_open(answer[form].verdict);
+    for (int form = 0; form < SCREE_FINDING_FORMS; form++)
+        *open |= shown[form] && scree_verdict_is_open(answer[form].verdict);
     return SCREE_OK;
 }
 
@@ -106,7 +102,7 @@ static scree_status put_statement(const page *p, const scree_statement_group *gr
     if (!status && !*kept) (void)fwrite(rows.text, 1, rows.length, file);
     if (*kept && !scree_page_row_copy(p->former.text, p->former.length, s, file))
         status = scree_error_set_memory(p->error, 4096);
-    if (!status) put_notes(p, s, *kept ? is_open(former.verdict) : open);
+    if (!status) put_notes(p, s, *kept ? scree_verdict_is_open(former.verdict) : open);
     free(text);
     return status;
 }

@@ -7,6 +7,11 @@ double scree_statement_confidence(const scree_statement *statement)
     return statement->kind == SCREE_CRITERION_WITHIN || statement->kind == SCREE_CRITERION_EQUIVALENT ? 0.90 : 0.95;
 }
 
+bool scree_verdict_is_open(scree_verdict verdict)
+{
+    return verdict == SCREE_DIFFERS || verdict == SCREE_UNDECIDED || verdict == SCREE_NOT_MEASURED;
+}
+
 scree_verdict scree_verdict_of(const scree_statement *statement, const scree_interval *interval)
 {
     scree_statement_range range = scree_statement_accepts(statement);

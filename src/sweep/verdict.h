@@ -18,6 +18,9 @@ typedef enum scree_verdict {
 /// sides are a one-sided test of 5 % each.
 double scree_statement_confidence(const scree_statement *statement);
 
+/// No agreement of runs that are there: what is said with its explanation.
+bool scree_verdict_is_open(scree_verdict verdict);
+
 /// AGREES, DIFFERS or UNDECIDED. An interval with an end that is not a number decides nothing.
 scree_verdict scree_verdict_of(const scree_statement *statement, const scree_interval *interval);
 

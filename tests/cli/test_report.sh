@@ -67,6 +67,21 @@ expect 0 '1 cases stay as page.md had them' "$scree" report runs/quick --stateme
 cmp -s page.md whole.md || complain "a page changed without its runs: $(diff page.md whole.md)"
 expect 0 '' "$scree" report runs --statements mine.yaml -o page.md
 cmp -s page.md whole.md || complain "the same page is not written twice: $(diff page.md whole.md)"
+# Words of the table that have changed are told beside rows that stay, and a statement that it has no more is gone.
+sed 's/It is not\./It is smaller./; s/What it is\./What else it is./; /id: ours/d' mine.yaml >other.yaml
+expect 0 '' "$scree" report runs/quick --statements other.yaml -o page.md
+grep -qF -- '- huge: It is smaller.' page.md || complain "an explanation stays: $(grep -- '- huge' page.md)"
+grep -qF 'What else it is.' page.md || complain "the words on a case stay: $(grep 'What ' page.md)"
+same "$(row ours | wc -l)" 0 "rows of a statement that the table has no more"
+same "$(grep -E '^\| (large|huge|more) ' page.md)" "$(grep -E '^\| (large|huge|more) ' whole.md)" "rows beside other words"
+for change in 's/It is not\./It is smaller./' 's/What it is\./What else it is./' '/id: ours/d'; do
+    cp whole.md page.md
+    sed "$change" mine.yaml >other.yaml
+    expect 0 '' "$scree" report runs/quick --statements other.yaml -o page.md
+    grep -F -- "$(grep -oE 'It is not|What it is|ours' <<<"$change" | head -1)" page.md | grep -E '^- huge|^What|^. ours ' &&
+        complain "words or rows stay behind $change"
+done
+cp whole.md page.md
 sed 's/greater than 9/greater than 8/' mine.yaml >other.yaml
 expect 0 '' "$scree" report runs/quick --statements other.yaml -o page.md
 # A statement with another criterion has what the folders hold, the others their rows, with the runs that these are of.
