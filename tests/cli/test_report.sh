@@ -209,7 +209,7 @@ wrong() {
 }
 cp page.md before.md
 wrong 's/kind: check/kind: chek/' "10:[0-9]+: cases.0.statements.2.kind: .*did you mean 'check'"
-all_forms='.accepted: within 10 %, greater than 2, less than 3, between 2 and 4, holds.'
+all_forms='.accepted: within 10 %, equivalent within 0.5, greater than 2, less than 3, between 2 and 4, holds.'
 wrong 's/greater than 9/greatr than 9/' "8:[0-9]+: huge: there is no criterion 'greatr than 9'; did you mean 'greater than 9'. $all_forms"
 wrong 's/greater than 9/at least 9/' "8:[0-9]+: huge: there is no criterion 'at least 9' $all_forms"
 wrong 's/greater than 9/greater than nine/' "8:[0-9]+: huge: 'greater than nine' is not a criterion, expected behind 'greater than': one number without unit"
