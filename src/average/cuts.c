@@ -109,6 +109,11 @@ void scree_average_view_close(scree_average_view *view)
     scree_average_strain_close(&view->strain);
 }
 
+bool scree_average_are_few(double grains)
+{
+    return grains < SCREE_AVERAGE_FEW * (1 - 1e-9);
+}
+
 // ---- elements ----------------------------------------------------------------------------------------------------
 
 /// Where an element stands, and what is found of it.

@@ -14,6 +14,7 @@
 #include "average/table.h"
 
 enum { SCREE_AVERAGE_CUTS = 64, SCREE_AVERAGE_SIZES = 32 };
+enum { SCREE_AVERAGE_FEW = 30 }; ///< grains of an element; averages over fewer are noise
 
 typedef enum scree_average_axis {
     SCREE_AVERAGE_AXIS_MASS, ///< x of the centre of mass
@@ -65,6 +66,10 @@ typedef struct scree_average_view {
 scree_status scree_average_view_open(scree_average_sample *sample, const scree_average_plan *plan,
                                      scree_average_view *view, scree_error *error) SCREE_MUST_USE;
 void scree_average_view_close(scree_average_view *view);
+
+/// Whether an element holds fewer grains than SCREE_AVERAGE_FEW. Its number is a side squared over the room of a grain:
+/// round-off of it is no grain less.
+bool scree_average_are_few(double grains);
 
 /// Where element `k` of a table lies: its centre and side [m]; with a table it tells what a row begins with, too.
 typedef void scree_average_placing(void *user, size_t k, scree_vector centre, double *side, scree_average_table *table);

@@ -62,6 +62,20 @@ void scree_summary_set_text(scree_summary *summary, const char *name, const char
     set_value(summary, name, text);
 }
 
+void scree_summary_add_text(scree_summary *summary, const char *name, const char *value)
+{
+    char whole[1024];
+    const char *held = json_string_value(json_object_get(summary->root, name));
+    (void)snprintf(whole, sizeof whole, "%s%s%s", held ? held : "", held && *held && *value ? "; " : "", value);
+    scree_summary_set_text(summary, name, whole);
+}
+
+double scree_summary_number(const scree_summary *summary, const char *name)
+{
+    const json_t *value = json_object_get(summary->root, name);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
 const char *scree_summary_unknown(const scree_summary *summary)
 {
     const char *name;

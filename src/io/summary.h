@@ -15,6 +15,10 @@ void scree_summary_destroy(scree_summary *summary);
 void scree_summary_set_number(scree_summary *summary, const char *name, double value);
 void scree_summary_set_integer(scree_summary *summary, const char *name, int64_t value);
 void scree_summary_set_text(scree_summary *summary, const char *name, const char *value);
+/// Behind what the text holds, with "; " between.
+void scree_summary_add_text(scree_summary *summary, const char *name, const char *value);
+/// What was set; NAN of what was not, or is no number.
+double scree_summary_number(const scree_summary *summary, const char *name);
 /// A name that is not in the table of results (io/result_names.h), or NULL.
 const char *scree_summary_unknown(const scree_summary *summary);
 scree_status scree_summary_write(const scree_summary *summary, const char *path, scree_error *error) SCREE_MUST_USE;

@@ -53,7 +53,6 @@ typedef struct measure_fits {
     double slope[2]; ///< rad, left and right
 } measure_fits;
 
-enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
 #define MEASURE_AT_REST 1e-2 /* what is not at rest has a larger unbalanced ratio */
 
 /// SI units of one unit of a file of grains.

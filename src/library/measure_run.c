@@ -198,9 +198,9 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
                  const scree_average_view *view)
 {
     const scree_average_sample *sample = view->sample;
-    if (view->grains < MEASURE_FEW)
+    if (scree_average_are_few(view->grains))
         measure_say(plan, "warning: %s: an element holds %.3g grains, fewer than %d: averages over it are noise",
-                    directory, view->grains, MEASURE_FEW);
+                    directory, view->grains, SCREE_AVERAGE_FEW);
     if (!(sample->unbalanced_ratio < MEASURE_AT_REST))
         measure_say(plan,
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "

@@ -73,8 +73,8 @@ static void set_warnings(scree_summary *summary, const scree_average_table *valu
     const double grains = values->value[scree_average_table_find(values, "element_grains")];
     const double rest = values->value[scree_average_table_find(values, "unbalanced_ratio")];
     char text[200] = "";
-    if (grains < MEASURE_FEW)
-        (void)snprintf(text, sizeof text, "elements hold %.3g grains, fewer than %d", grains, MEASURE_FEW);
+    if (scree_average_are_few(grains))
+        (void)snprintf(text, sizeof text, "elements hold %.3g grains, fewer than %d", grains, SCREE_AVERAGE_FEW);
     if (!(rest < MEASURE_AT_REST)) {
         const size_t used = strlen(text);
         (void)snprintf(text + used, sizeof text - used, "%snot at rest, unbalanced ratio %.3g", used ? "; " : "", rest);

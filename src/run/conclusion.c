@@ -1,10 +1,12 @@
 /// Results of modules.
 #include "run/conclusion.h"
 
+#include "average/cuts.h"
 #include "io/result_names.h"
 #include "run/step.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum { ROWS = 64 }; ///< results of one module
 
@@ -33,6 +35,19 @@ static scree_status measure(const scree_conclusion *run, const scree_module *mod
     for (size_t index = 0; !status && module->told(&run->s->c->config, index, about); index++)
         status = set_results(run, &module->results, index, about, error);
     return status;
+}
+
+void scree_conclude_few(const scree_conclusion *run, const char *what, double grains, const char *remedy)
+{
+    char text[200] = "";
+    scree_log quiet = *run->log;
+    quiet.sink = NULL;
+    if (scree_average_are_few(grains)) {
+        (void)snprintf(text, sizeof text, "elements of the %s hold %.3g grains, fewer than %d", what, grains,
+                       SCREE_AVERAGE_FEW);
+        scree_log_write(&quiet, SCREE_LOG_WARNING, "%s: it is noise; %s", text, remedy);
+    }
+    scree_summary_add_text(run->summary, "warnings", text);
 }
 
 scree_status scree_conclude(const scree_conclusion *run, scree_error *error)

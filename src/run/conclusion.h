@@ -18,4 +18,8 @@ typedef struct scree_conclusion {
 /// All results that modules declare: those that are measured, then those that they conclude.
 scree_status scree_conclude(const scree_conclusion *run, scree_error *error) SCREE_MUST_USE;
 
+/// Notes in `warnings` and log.txt when the elements of `what` hold few grains (average/cuts.h). It is no line on the
+/// terminal: these results are told of every run, whether or not somebody wants them.
+void scree_conclude_few(const scree_conclusion *run, const char *what, double grains, const char *remedy);
+
 #endif

@@ -224,6 +224,8 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     scree_status status = measure(&c, &pile, error);
     if (status) return status;
     warn_of_hanging(run, &pile);
+    scree_conclude_few(run, "dip", scree_summary_number(run->summary, "dip_element"),
+                       "take the mean over several piles with `scree measure`, or pour more particles");
     status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_OUTLINE, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (!status) {

@@ -199,6 +199,7 @@ static const scree_result results[] = {
     {"response_grain_weights", "1", "the same over the mean weight of a grain"},
     {"response_thickness", "m", "of the layer, from the top of the loaded grain to the bottom of the lowest one"},
     {"response_element", "m", "side of the elements that all is a mean over"},
+    {"response_element_grains", "1", "grains in them at the mean density of the layer"},
     {"response_missing", "1", "largest part of the load that is missing in what a row of elements and walls bear"},
     {"response_contacts", "1", "contacts of grains before the load"},
     {"response_made", "1", "contacts that there are with the load alone"},
@@ -419,6 +420,14 @@ static void set_theories(const finding *f)
     }
 }
 
+/// Grains in an element, at the density of the layer from end to end.
+static double grains_of(const finding *f)
+{
+    const scree_response *r = &f->response;
+    const double area = (r->right - r->left) * (r->top - r->base);
+    return (double)f->before.counted * r->side * r->side / area;
+}
+
 static scree_status set_results(finding *f, scree_error *error)
 {
     double missing = 0, unchanged, contacts = 0;
@@ -430,7 +439,11 @@ static scree_status set_results(finding *f, scree_error *error)
     set(f, "grain_weights", "",
         f->response.force * (double)f->before.counted / (-f->before.mass * f->before.gravity[1]));
     set(f, "thickness", "", f->curves->thickness);
+    const double grains = grains_of(f);
     set(f, "element", "", f->response.side);
+    set(f, "element_grains", "", grains);
+    scree_conclude_few(f->run, "response", grains,
+                       "take the mean over several layers, or a larger `measure.response_element`");
     set(f, "missing", "", missing);
     set(f, "contacts", "", contacts);
     set(f, "made", "", (double)f->changes.made);

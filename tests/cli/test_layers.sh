@@ -22,6 +22,9 @@ between smooth response_force_order 0.9999 1
 between smooth response_missing 0 1e-3
 between smooth response_force 19.999999 20.000001
 between smooth response_grain_weights 6.3 6.5
+# Two diameters hold 16 / (2 sqrt 3) = 4.6 touching discs; a layer counts the gaps at its ends.
+between smooth response_element_grains 3.9 4.6
+"$scree" get smooth warnings | grep -q 'elements of the response hold .* grains, fewer than 30' || complain "nothing is said of the few grains in elements of a response"
 expect 0 '' "$scree" run "${layer[@]}" -o rough
 between rough response_order 0.9999 1
 between rough response_force_order -1 0.95

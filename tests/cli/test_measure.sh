@@ -27,6 +27,8 @@ for pair in "dip dip" "element_grains dip_element"; do
 done
 same "$("$scree" get one grains)" 60 "grains"
 same "$("$scree" get one warnings)" "elements hold 6 grains, fewer than 30" "warnings"
+same "$("$scree" get pile1 warnings)" "elements of the dip hold 6 grains, fewer than 30" "warnings of the run's own dip"
+expect 0 'warning elements of the dip hold 6 grains, fewer than 30: it is noise; .*scree measure' cat pile1/log.txt
 checks=$((checks + 1))
 awk -v plate="$("$scree" get one outside_force_ratio)" -v row="$("$scree" get one bottom_row_ratio)" \
     -v residual="$("$scree" get one kernel_residual)" -v run="$("$scree" get pile1 weight_ratio)" \

@@ -322,6 +322,17 @@ static void test_principal(void **state)
     near(scree_tensor_form_of(plain, 2).angle, M_PI / 4, 1e-14);
 }
 
+/// Thirty grains of three hundred are thirty: the side that a tenth of them fill, squared, over the room of a grain
+/// falls below by round-off.
+static void test_few(void **state)
+{
+    (void)state;
+    assert_false(scree_average_are_few(29.999999999999996));
+    assert_false(scree_average_are_few(30));
+    assert_true(scree_average_are_few(29.99));
+    assert_false(scree_average_are_few(NAN));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -336,6 +347,7 @@ int main(void)
         cmocka_unit_test(test_sign_of_equilibrium),
         cmocka_unit_test(test_bad_samples),
         cmocka_unit_test(test_principal),
+        cmocka_unit_test(test_few),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
