@@ -147,40 +147,43 @@ typedef struct map_figure {
     const char *file, *column, *title, *label;
     double factor;
     scree_colour_map colours;
-    const char *axis; ///< column of an angle [degree]; NULL: no lines
+    const char *axis;  ///< column of an angle [degree]; NULL: no lines
+    const char *lines; ///< behind the title where they are drawn
 } map_figure;
 
 #define SEQUENTIAL SCREE_COLOUR_SEQUENTIAL
+#define NO_LINES   NULL, NULL
 static const map_figure map_figures[] = {
     {MEASURE_MAP, "map-density", "volume_fraction_parts_inside", "Volume fraction, exact parts inside the surface",
-     "volume fraction", 1, SEQUENTIAL, NULL},
-    {MEASURE_MAP, "map-stress-vertical", "stress_yy_inside",
-     "Vertical pressure inside, and the axis of the largest one", "vertical pressure (kPa)", -1e-3, SEQUENTIAL,
-     "pressure_angle"},
+     "volume fraction", 1, SEQUENTIAL, NO_LINES},
+    {MEASURE_MAP, "map-stress-vertical", "stress_yy_inside", "Vertical pressure inside", "vertical pressure (kPa)",
+     -1e-3, SEQUENTIAL, "pressure_angle", ", and the axis of the largest one"},
     {MEASURE_MAP, "map-stress-horizontal", "stress_xx_inside", "Horizontal pressure inside",
-     "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NULL},
+     "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NO_LINES},
     {MEASURE_MAP, "map-stress-change", "stress_change_yy", "Change of the vertical pressure",
-     "change of the vertical pressure (kPa)", -1e-3, SCREE_COLOUR_DIVERGING, NULL},
-    {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor, and its major axis", "tr F", 1, SEQUENTIAL,
-     "fabric_angle"},
-    {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes, and their mean direction",
-     "order (0 none, 1 all alike)", 1, SEQUENTIAL, "axes_angle"},
+     "change of the vertical pressure (kPa)", -1e-3, SCREE_COLOUR_DIVERGING, NO_LINES},
+    {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor", "tr F", 1, SEQUENTIAL, "fabric_angle",
+     ", and its major axis"},
+    {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes", "order (0 none, 1 all alike)", 1, SEQUENTIAL,
+     "axes_angle", ", and their mean direction"},
     {MEASURE_MAP, "map-velocity", "velocity_x", "Horizontal velocity", "velocity x (m/s)", 1, SCREE_COLOUR_DIVERGING,
-     NULL},
+     NO_LINES},
     {MEASURE_MAP, "map-strain-vertical", "bagi_yy", "Vertical strain (cells), compression positive", "strain", -1,
-     SCREE_COLOUR_DIVERGING, NULL},
+     SCREE_COLOUR_DIVERGING, NO_LINES},
     {MEASURE_MAP, "map-displacement", "displacement_y", "Displacement in y since the earlier state",
-     "displacement (um)", 1e6, SCREE_COLOUR_DIVERGING, NULL},
-    {MEASURE_MAP, "map-bulk-modulus", "bulk_modulus_inside", "Bulk modulus inside", "K (MPa)", 1e-6, SEQUENTIAL, NULL},
+     "displacement (um)", 1e6, SCREE_COLOUR_DIVERGING, NO_LINES},
+    {MEASURE_MAP, "map-bulk-modulus", "bulk_modulus_inside", "Bulk modulus inside", "K (MPa)", 1e-6, SEQUENTIAL,
+     NO_LINES},
     {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
-     NULL},
+     NO_LINES},
     {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "vertical pressure (kPa)",
-     -1e-3, SEQUENTIAL, NULL},
+     -1e-3, SEQUENTIAL, NO_LINES},
     {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth",
-     "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NULL},
-    {MEASURE_KERNEL, "kernel-bulk-modulus", "bulk_modulus", "Bulk modulus, smooth", "K (MPa)", 1e-6, SEQUENTIAL, NULL},
+     "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NO_LINES},
+    {MEASURE_KERNEL, "kernel-bulk-modulus", "bulk_modulus", "Bulk modulus, smooth", "K (MPa)", 1e-6, SEQUENTIAL,
+     NO_LINES},
     {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "shear stress (kPa)", 1e-3,
-     SCREE_COLOUR_DIVERGING, NULL},
+     SCREE_COLOUR_DIVERGING, NO_LINES},
 };
 
 /// Empty places are white: no grain counts there.
@@ -200,7 +203,7 @@ static scree_status draw_map(const char *folder, const measure_found *found, con
     const scree_average_table *table = &found->mean.of[figure->product];
     const size_t column = find_column(table, figure->column), n = table->rows;
     const size_t angle = figure->axis ? scree_average_table_find(table, figure->axis) : SIZE_MAX;
-    char path[PATH_MAX];
+    char path[PATH_MAX], title[160];
     const size_t up = scree_average_table_find(table, "z") != SIZE_MAX ? 2 : 1;
     // Of spheres a section is drawn, and no block.
     if (n == 0 || column == SIZE_MAX ||
@@ -209,11 +212,8 @@ static scree_status draw_map(const char *folder, const measure_found *found, con
     size_t columns = 1;
     while (columns < n && scree_average_table_get(table, columns, up) == scree_average_table_get(table, 0, up))
         columns++;
-    scree_map map = {.title = figure->title,
-                     .name = figure->label,
-                     .columns = columns,
-                     .rows = n / columns,
-                     .colours = figure->colours};
+    scree_map map = {
+        .title = title, .name = figure->label, .columns = columns, .rows = n / columns, .colours = figure->colours};
     if (map.columns < 2 || map.rows < 2) return SCREE_OK;
     for (size_t i = 0; i < 2; i++) {
         const size_t along = i == 0 ? 0 : up;
@@ -224,10 +224,11 @@ static scree_status draw_map(const char *folder, const measure_found *found, con
         map.high[i] = last + 0.5 * gap;
     }
     double *value = take(table, column, 0, n, figure->factor, error);
-    double *axis = angle == SIZE_MAX || up == 2 || n > 1500 ? NULL : take(table, angle, 0, n, M_PI / 180, error);
+    double *axis = angle == SIZE_MAX || up == 2 ? NULL : take(table, angle, 0, n, M_PI / 180, error);
     scree_status status = value ? scree_path_join(path, sizeof path, folder, figure->file, error) : SCREE_ERROR_IO;
     map.value = value;
     map.axis = axis;
+    (void)snprintf(title, sizeof title, "%s%s", figure->title, axis ? figure->lines : "");
     if (!status) {
         blank(table, value);
         status = forgive(scree_map_draw(path, &map, error));

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { MOST_LINES = 1500 };
+
 #define WIDTH      430.0 /* pt, of the map at most */
 #define HEIGHT     330.0
 #define LEFT       58.0
@@ -56,21 +58,44 @@ static void draw_cells(const drawing *d, cairo_t *cairo)
     cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
 }
 
+/// How many of `count` have a line, when the middle one of each `gap` of them has.
+static size_t lines_of(size_t count, size_t gap)
+{
+    return (count + gap - 1 - gap / 2) / gap;
+}
+
+/// Columns and rows of the rectangles that share a line: one where that leaves no more than MOST_LINES, else those of
+/// blocks that are nearly square.
+static void find_gaps(const drawing *d, size_t gap[2])
+{
+    const size_t count[2] = {d->map->columns, d->map->rows};
+    const double size[2] = {d->width, d->height};
+    double side = 0;
+    for (gap[0] = gap[1] = 1; lines_of(count[0], gap[0]) * lines_of(count[1], gap[1]) > MOST_LINES;) {
+        side = side > 0 ? 1.02 * side : sqrt(size[0] * size[1] / MOST_LINES);
+        for (int k = 0; k < 2; k++) gap[k] = (size_t)fmin((double)count[k], ceil(side * (double)count[k] / size[k]));
+    }
+}
+
 static void draw_lines(const drawing *d, cairo_t *cairo)
 {
     const scree_map *map = d->map;
     const double dx = d->width / (double)map->columns, dy = d->height / (double)map->rows;
+    size_t gap[2];
     if (!map->axis) return;
+    find_gaps(d, gap);
     cairo_set_line_width(cairo, 0.9);
     scree_page_colour(cairo, ink);
-    for (size_t k = 0; k < map->columns * map->rows; k++) {
-        if (!isfinite(map->value[k]) || !isfinite(map->axis[k])) continue;
-        const double half = 0.45 * fmin(dx, dy) * (map->length ? fmax(0, fmin(1, map->length[k])) : 1);
-        const double x = LEFT + ((double)(k % map->columns) + 0.5) * dx;
-        const double y = TOP + d->height - ((double)(k / map->columns) + 0.5) * dy;
-        cairo_move_to(cairo, x - half * cos(map->axis[k]), y + half * sin(map->axis[k]));
-        cairo_line_to(cairo, x + half * cos(map->axis[k]), y - half * sin(map->axis[k]));
-    }
+    for (size_t j = gap[1] / 2; j < map->rows; j += gap[1])
+        for (size_t i = gap[0] / 2; i < map->columns; i += gap[0]) {
+            const size_t k = j * map->columns + i;
+            if (!isfinite(map->value[k]) || !isfinite(map->axis[k])) continue;
+            const double room = fmin(dx * (double)gap[0], dy * (double)gap[1]);
+            const double half = 0.45 * room * (map->length ? fmax(0, fmin(1, map->length[k])) : 1);
+            const double x = LEFT + ((double)i + 0.5) * dx, y = TOP + d->height - ((double)j + 0.5) * dy;
+            cairo_move_to(cairo, x - half * cos(map->axis[k]), y + half * sin(map->axis[k]));
+            cairo_line_to(cairo, x + half * cos(map->axis[k]), y - half * sin(map->axis[k]));
+        }
     cairo_stroke(cairo);
 }
 

@@ -12,7 +12,8 @@ typedef struct scree_map {
     double low[2], high[2]; ///< m, corners of what the rectangles fill
     const double *value;    ///< columns x rows, along a row first, the lowest row first; NAN: left white
     scree_colour_map colours;
-    const double *axis;   ///< NULL, or an angle [rad] a rectangle, drawn as a short line; NAN: none
+    const double *axis;   ///< NULL, or an angle [rad] a rectangle, drawn as a short line; NAN: none. of large maps one
+                          ///< for several rectangles, longer by as much
     const double *length; ///< NULL, or of this line, 0 to 1
 } scree_map;
 

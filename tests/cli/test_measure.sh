@@ -34,6 +34,11 @@ awk -v plate="$("$scree" get one outside_force_ratio)" -v row="$("$scree" get on
     -v residual="$("$scree" get one kernel_residual)" -v run="$("$scree" get pile1 weight_ratio)" \
     'BEGIN { exit !(plate > 0.999 && plate < 1.001 && row > 0.98 && row < 1.02 && residual < 1e-9 && (plate - run) ^ 2 < 1e-16) }' ||
     complain "plate, lowest row or residual"
+# A map of more places than lines can be told apart still has lines, of which one stands for several places.
+expect 0 'holds 2 grains' "$scree" measure pile1 --element 2 --grid 100x50 -o fine
+checks=$((checks + 1))
+lines=$(grep 'stroke-width:0.9' fine/map-stress-vertical.svg | grep -o 'M ' | wc -l)
+[ "$lines" -gt 300 ] && [ "$lines" -le 1500 ] || complain "$lines lines on a map of 100 x 50"
 # Elements of 6 grains are few, and said to be.
 expect 0 'warning: pile1: an element holds 6 grains, fewer than 30' "$scree" measure pile1 --no-figures -o few
 
