@@ -83,29 +83,54 @@ static const char *wrong_vector(const scree_config_source *source, int dimension
     return NULL;
 }
 
-static double largest_radius(const scree_config *config)
+/// Least and largest radius of all particles [m]; NAN: they are wrong, and that has been noted.
+static void find_radii(const scree_config *config, double radius[2])
 {
-    double largest = 0;
+    radius[0] = INFINITY, radius[1] = 0;
     for (int64_t s = 0; s < scree_config_species_count(&config->particles); s++) {
         const scree_config_species species = scree_config_species_at(&config->particles, s);
         const scree_size_distribution *sizes =
             species.distribution >= 0 && species.own ? scree_modules[species.distribution]->sizes : NULL;
         scree_size_problem problem;
-        if (!sizes || sizes->wrong(scree_config_sizes(&config->particles, s), &problem)) return NAN; // noted
-        largest = fmax(largest, sizes->moments(scree_config_sizes(&config->particles, s), (int)config->dimension).most);
+        if (!sizes || sizes->wrong(scree_config_sizes(&config->particles, s), &problem)) {
+            radius[0] = radius[1] = NAN;
+            return;
+        }
+        const scree_size_moments m = sizes->moments(scree_config_sizes(&config->particles, s), (int)config->dimension);
+        radius[0] = fmin(radius[0], m.least);
+        radius[1] = fmax(radius[1], m.most);
     }
-    return largest;
 }
 
-/// The box that holds a source as it is given.
-static void box_of(const scree_config_source *source, double low[3], double high[3])
+static void place_of(const scree_config *config, int64_t index, scree_source_place *place)
 {
-    scree_source_place place;
-    scree_modules[source->kind]->source->place(source->own, &place);
-    for (int c = 0; c < 3; c++) {
-        low[c] = high[c] = place.origin[c];
-        for (int e = 0; e < place.edges; e++) (place.edge[e][c] < 0 ? low : high)[c] += place.edge[e][c];
+    const scree_config_source *source = &config->sources[index];
+    scree_modules[source->kind]->source->place(source->own, place);
+}
+
+/// Distance [m] of a point from a place whose edges are normal to each other.
+static double distance(const double at[3], const scree_source_place *place)
+{
+    double rest[3];
+    scree_subtract(at, place->origin, rest);
+    for (int e = 0; e < place->edges; e++) {
+        const double *edge = place->edge[e];
+        const double along = fmin(1, fmax(0, scree_dot(rest, edge) / scree_dot(edge, edge)));
+        scree_along(rest, -along, edge, rest);
     }
+    return scree_length(rest);
+}
+
+/// Whether all of one place is nearer to the other one than `least` [m].
+static bool lies_in(const scree_source_place *one, const scree_source_place *other, double least)
+{
+    for (int corner = 0; corner < 1 << one->edges; corner++) {
+        double at[3] = {one->origin[0], one->origin[1], one->origin[2]};
+        for (int e = 0; e < one->edges; e++)
+            if (corner >> e & 1) scree_along(at, 1, one->edge[e], at);
+        if (!(distance(at, other) < least)) return false;
+    }
+    return true;
 }
 
 /// Whether two sources pour in one stage.
@@ -114,19 +139,19 @@ static bool pour_together(const scree_config_source *one, const scree_config_sou
     return !one->stage || !other->stage || strcmp(one->stage, other->stage) == 0;
 }
 
-/// Two sources in one place would block each other.
+/// Two sources in one place, or one within the other, would block each other.
 static void check_places(scree_reader *reader, const scree_config *config, int64_t index)
 {
-    const scree_config_source *source = &config->sources[index];
-    double low[3], high[3], other_low[3], other_high[3], diameter = 2 * largest_radius(config);
-    box_of(source, low, high);
+    scree_source_place place, other;
+    double radius[2];
+    find_radii(config, radius);
+    place_of(config, index, &place);
+    const double diameter = 2 * radius[1];
     for (int64_t k = 0; k < index; k++) {
-        const scree_config_source *other = &config->sources[k];
-        bool same = pour_together(source, other);
-        box_of(other, other_low, other_high);
-        for (int c = 0; c < 3; c++)
-            same = same && fabs(low[c] - other_low[c]) < diameter && fabs(high[c] - other_high[c]) < diameter;
-        if (!same) continue;
+        place_of(config, k, &other);
+        if (!pour_together(&config->sources[index], &config->sources[k]) ||
+            (!lies_in(&place, &other, diameter) && !lies_in(&other, &place, diameter)))
+            continue;
         char path[SCREE_PATH_BYTES];
         scree_rule_refuse(reader, scree_element_path(path, "sources", index, "source"), NULL,
                           "it is in the same place as sources.%lld, less than a diameter, %.3g m, away: give it "
@@ -134,6 +159,24 @@ static void check_places(scree_reader *reader, const scree_config *config, int64
                           (long long)k, diameter);
         return;
     }
+}
+
+/// A region in which all are born at one place, but for a part of a grain, is meant to be another one.
+static void check_size(scree_reader *reader, const scree_config *config, int64_t index)
+{
+    scree_source_place place;
+    double radius[2], length = 0;
+    if (!scree_modules[config->sources[index].kind]->source->rains) return;
+    place_of(config, index, &place);
+    find_radii(config, radius);
+    for (int e = 0; e < place.edges; e++) length = fmax(length, scree_length(place.edge[e]));
+    if (!(length < 2 * radius[0])) return;
+    char path[SCREE_PATH_BYTES];
+    scree_rule_refuse(
+        reader, scree_element_path(path, "sources", index, "upper"), NULL,
+        "the region is smaller, %.3g m, than the smallest particle, %.3g m: give corners that are farther "
+        "apart, or a source: point",
+        length, 2 * radius[0]);
 }
 
 // ---- the whole ---------------------------------------------------------------------------------------------------
@@ -170,6 +213,7 @@ void scree_rules_check_sources(scree_reader *reader, scree_config *config)
         if (wrong) refuse(reader, i, key, NULL, wrong);
         check_species(reader, config, i);
         check_stage(reader, config, i);
+        if (!wrong) check_size(reader, config, i);
         if (!wrong) check_places(reader, config, i);
     }
 }

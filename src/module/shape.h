@@ -21,6 +21,8 @@ typedef struct scree_shape {
     /// Bounding radius over equivalent radius: no body has more; that of body `number` as drawn.
     double (*largest_reach)(const void *keys);
     double (*reach)(const void *keys, uint64_t seed, uint64_t number);
+    /// Width of body `number` as drawn where it is narrowest, over the equivalent radius. NULL: twice that.
+    double (*narrowest)(const void *keys, uint64_t seed, uint64_t number);
     /// Radius of the corners over the equivalent radius; 0: they are sharp.
     double (*rounding)(const void *keys);
     /// Gives the body in `row` the outline of body `number` as drawn, within the radius that its row has, with mass,

@@ -21,7 +21,8 @@ typedef struct scree_source_plateau {
 
 /// `keys`: the module's struct.
 typedef struct scree_source_kind {
-    bool wide; ///< has more than one point, so that there are layers
+    bool wide;  ///< has more than one point, so that there are layers
+    bool rains; ///< it is there to spread grains: one in which no two lie side by side is wrong
     /// What is wrong with its keys, and under which; NULL: nothing. NULL: never anything.
     const char *(*wrong)(const void *keys, int dimension, const char **key);
     /// Its place as it is given.

@@ -14,6 +14,7 @@
 #include "run/results.h"
 #include "search/neighbours.h"
 #include "shape/wall_set.h"
+#include "source/room.h"
 #include "view/font.h"
 #include "view/plot.h"
 
@@ -240,7 +241,10 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         if (s->model.step * (double)s->model.largest_step > s->model.critical_step)
             scree_log_write(&recorder.log, SCREE_LOG_WARNING,
                             "the step is above the estimated critical one, which guard.stability: warn allows");
-        if (!restarted) scree_quasistatic_warn(&s->model, &recorder.log);
+        if (!restarted) {
+            scree_quasistatic_warn(&s->model, &recorder.log);
+            scree_source_warn(&s->model, s->work.wall_set, &recorder.log);
+        }
         log_meshes(&recorder, s->work.wall_set);
         status = imposed(&recorder, s, error);
         if (status && recorder.writes) leave(&recorder, s, error);

@@ -15,6 +15,7 @@
 #include "run/step.h"
 #include "search/neighbours.h"
 #include "shape/wall_set.h"
+#include "source/room.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +27,16 @@
 scree_status scree_case_model(const scree_case *c, scree_model *model, scree_error *error)
 {
     scree_status status = scree_model_build(&c->config, model, error);
+    if (status) scree_case_locate(c, error);
+    return status;
+}
+
+/// The walls, and whether what sources pour passes the openings between them.
+static scree_status make_walls(const scree_case *c, scree_simulation *s, scree_error *error)
+{
+    scree_status status = scree_wall_set_create(&c->config, &s->work.wall_set, error);
+    for (int64_t k = 0; k < s->model.source_count && !status; k++)
+        status = scree_source_check_opening(&s->model, s->work.wall_set, k, error);
     if (status) scree_case_locate(c, error);
     return status;
 }
@@ -46,7 +57,7 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
         threads = (int)fmin(fmax(1, scree_processor_count() / scree_comm_neighbours()),
                             1 + (double)c->config.particles.count / BODIES_A_THREAD);
     status = scree_work_create(&s->work, &s->model, threads, error);
-    if (!status && (status = scree_wall_set_create(&c->config, &s->work.wall_set, error))) scree_case_locate(c, error);
+    if (!status) status = make_walls(c, s, error);
     if (!status) status = scree_columns_create(&c->config, &s->columns, error);
     return status ? status : scree_allocate(&s->sample, s->columns.count, sizeof *s->sample, error);
 }

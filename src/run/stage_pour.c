@@ -12,7 +12,7 @@
 #include "run/step.h"
 #include "shape/wall_set.h"
 #include "source/pour.h"
-#include "source/source.h"
+#include "source/room.h"
 #include "state/case_walls.h"
 
 #include <math.h>
@@ -64,51 +64,27 @@ static const config *own_config(const scree_simulation *s)
 
 static const char *wrong(const scree_config *whole, int64_t index, const char **key)
 {
-    const scree_boundary *boundary = scree_config_held_by(whole, index);
+    static _Thread_local char text[200];
+    const int slot = scree_config_boundary_of(whole, index);
     *key = "stage";
     if (whole->source_count == 0) return "there is nothing that it could pour from: give `sources`";
     *key = "boundary";
-    if (whole->boundary.periodic == 0 && boundary && !boundary->open)
-        return "sources pour beside walls of the case only, not beside plates, a pressure or a membrane: give `walls` "
-               "and boundary: walls";
-    return NULL;
+    if (whole->boundary.periodic > 0 || slot < 0 || scree_modules[slot]->boundary->open) return NULL;
+    (void)snprintf(text, sizeof text,
+                   "`sources` and boundary: %s do not go together: sources pour beside walls of the case only; give "
+                   "`walls` and boundary: walls",
+                   scree_modules[slot]->name);
+    return text;
 }
 
 // ---- while it runs -----------------------------------------------------------------------------------------------
-
-/// Where a source is, a grain needs room: the ends of the place must not lie in a wall.
-static scree_status check_source(const scree_simulation *s, int64_t index, scree_error *error)
-{
-    const scree_wall_set *wall_set = s->work.wall_set;
-    const scree_config_source *source = &s->model.sources[index];
-    const double radius = s->model.radius_min;
-    scree_source_place place;
-    scree_modules[source->kind]->source->place(source->own, &place);
-    for (int corner = 0; corner < 1 << place.edges; corner++)
-        for (int k = 0; wall_set && k < wall_set->count; k++) {
-            scree_vector at = {place.origin[0], place.origin[1], place.origin[2]};
-            for (int e = 0; e < place.edges; e++)
-                if (corner >> e & 1) scree_along(at, 1, place.edge[e], at);
-            const double clearance = scree_surface_clearance(wall_set, k, at, radius);
-            if (clearance >= radius) continue;
-            scree_status status =
-                scree_error_set(error, SCREE_ERROR_INPUT,
-                                "source '%s' is %s wall '%s': (%.4g, %.4g, %.4g) m is %.4g m from it, and the smallest "
-                                "particle has the "
-                                "radius %.4g m; move the source or the wall",
-                                source->name, clearance < 0 ? "behind" : "in", wall_set->surface[k].config->name, at[0],
-                                at[1], at[2], fabs(clearance), radius);
-            return scree_error_key(error, status, "sources.%lld", (long long)index);
-        }
-    return SCREE_OK;
-}
 
 static scree_status check_sources(const scree_simulation *s, scree_error *error)
 {
     scree_status status = SCREE_OK;
     for (int64_t k = 0; k < s->model.source_count && !status; k++)
         if (scree_source_pours_in(&s->model, k, s->state.stage.index) && isnan(s->model.sources[k].above))
-            status = check_source(s, k, error);
+            status = scree_source_check_room(&s->model, s->work.wall_set, k, error);
     if (status == SCREE_ERROR_INPUT && error) scree_case_locate(s->c, error);
     return status;
 }

@@ -6,6 +6,7 @@
 #include "run/quasistatic.h"
 #include "run/simulation.h"
 #include "shape/wall_set.h"
+#include "source/room.h"
 
 #include <math.h>
 #include <string.h>
@@ -83,7 +84,13 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
         scree_case_locate(c, error);
         return status;
     }
+    for (int64_t k = 0; k < model.source_count && !status; k++)
+        status = scree_source_check_opening(&model, wall_set, k, error);
     scree_wall_set_destroy(&wall_set);
+    if (status) {
+        scree_case_locate(c, error);
+        return status;
+    }
     status = estimate(c, &model, summary, error);
     return status;
 }
@@ -109,6 +116,11 @@ scree_status scree_case_warn(const scree_case *c, void (*visit)(void *user, cons
     scree_status status = scree_case_model(c, &model, error);
     listener to = {visit, user};
     scree_log log = {.sink = forward, .user = &to};
-    if (!status) scree_quasistatic_warn(&model, &log);
-    return status;
+    scree_wall_set *wall_set = NULL;
+    if (!status) status = scree_wall_set_create(&c->config, &wall_set, error);
+    if (status) return status;
+    scree_quasistatic_warn(&model, &log);
+    scree_source_warn(&model, wall_set, &log);
+    scree_wall_set_destroy(&wall_set);
+    return SCREE_OK;
 }

@@ -33,6 +33,19 @@ double scree_polygon_area(int count, const double (*corner)[2])
     return twice / 2;
 }
 
+double scree_polygon_width(int count, const double (*corner)[2])
+{
+    double width = INFINITY;
+    for (int k = 0; k < count; k++) {
+        const double *a = corner[k], *b = corner[(k + 1) % count];
+        const double x = b[0] - a[0], y = b[1] - a[1];
+        double most = 0;
+        for (int c = 0; c < count; c++) most = fmax(most, x * (corner[c][1] - a[1]) - y * (corner[c][0] - a[0]));
+        width = fmin(width, most / hypot(x, y));
+    }
+    return width;
+}
+
 scree_polygon_measures scree_polygon_measure(int count, const double (*corner)[2])
 {
     scree_polygon_measures m = {.area = scree_polygon_area(count, corner)};

@@ -55,6 +55,10 @@ scree_status scree_polygon_check(int count, const double (*corner)[2], scree_err
 /// Area [m2], signed: negative if clockwise.
 double scree_polygon_area(int count, const double (*corner)[2]);
 
+/// Width [m] where it is narrowest: the least distance of two parallel lines with the polygon between them, one of
+/// which goes along an edge.
+double scree_polygon_width(int count, const double (*corner)[2]);
+
 scree_polygon_measures scree_polygon_measure(int count, const double (*corner)[2]);
 
 /// Corners as they lie, relative to the centre of the body: turned by the angle whose cosine and sine are given.

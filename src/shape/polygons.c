@@ -171,6 +171,13 @@ static double reach(const void *said, uint64_t seed, uint64_t number)
     return measure(said, count, corner).bound;
 }
 
+static double narrowest(const void *said, uint64_t seed, uint64_t number)
+{
+    double corner[SCREE_POLYGON_CORNERS][2];
+    const int count = draw(said, seed, number, corner);
+    return scree_polygon_width(count, (const double(*)[2])corner) + 2 * ((const config *)said)->rounding;
+}
+
 static double rounding(const void *said)
 {
     return ((const config *)said)->rounding;
@@ -459,6 +466,7 @@ const scree_module scree_module_polygon = {
                                   .wrong = wrong,
                                   .largest_reach = largest_reach,
                                   .reach = reach,
+                                  .narrowest = narrowest,
                                   .rounding = rounding,
                                   .dress = dress},
 };

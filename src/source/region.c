@@ -44,5 +44,5 @@ const scree_module scree_module_region = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .spreads = true,
-    .source = &(const scree_source_kind){.wide = true, .wrong = wrong, .place = place},
+    .source = &(const scree_source_kind){.wide = true, .rains = true, .wrong = wrong, .place = place},
 };
