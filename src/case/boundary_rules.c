@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /// Notes a problem at stages.INDEX.KEY.
 static void refuse(scree_reader *reader, int64_t index, const char *key, const char *message)
@@ -92,15 +93,27 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
     return boundary->returned;
 }
 
+/// What is wrong with a stage that closes the sample in a case with walls.
+static const char *wrong_among_walls(scree_reader *reader, const scree_config *config, const scree_config_stage *stage)
+{
+    static _Thread_local char why[200];
+    const bool said = config->source_count > 0 && stage->boundary >= 0;
+    (void)snprintf(why, sizeof why, "%s%s%s", said ? "`sources` and boundary: " : "",
+                   said ? scree_modules[stage->boundary]->name : "",
+                   said
+                       ? " do not go together: in a case with walls this stage has no free surface of the sample: only "
+                       : "in a case with walls this stage has no plates and no free surface of the sample: only ");
+    return with_choices(reader, why, "stages", goes_without_plates, " can follow");
+}
+
 /// What is wrong with `boundary` in a stage; NULL: nothing.
-static const char *wrong_boundary(scree_reader *reader, const scree_config *config, const scree_stage_numbers *stage,
+static const char *wrong_boundary(scree_reader *reader, const scree_config *config, const scree_config_stage *said,
                                   const scree_boundary *boundary)
 {
+    const scree_stage_numbers *stage = scree_modules[said->kind]->numbers;
     const bool falls = scree_config_has_gravity(config) && !stage->still, free = stage->still || stage->collides;
     if (!stage->needs_standing && !stage->still && config->wall_count > 0)
-        return with_choices(reader,
-                            "in a case with walls this stage has no plates and no free surface of the sample: only ",
-                            "stages", goes_without_plates, " can follow");
+        return wrong_among_walls(reader, config, said);
     if (boundary->needs_walls && config->wall_count == 0) return boundary->needs_walls;
     if (stage->needs_standing && !boundary->stands && !boundary->open) return stage->needs_standing;
     if (!stage->needs_standing && !free && boundary->open)
@@ -116,7 +129,7 @@ static const char *wrong_boundary(scree_reader *reader, const scree_config *conf
     return stage->needs_free ? NULL : boundary->needs_gradient;
 }
 
-void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config)
+void scree_rules_check_boundaries(scree_reader *reader, scree_config *config)
 {
     const scree_boundary *before = NULL;
     for (int64_t i = 0; i < config->stage_count; i++)
@@ -125,9 +138,10 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
     check_periodic(reader, config);
     bool round = false;
     for (int64_t i = 0; i < config->stage_count; i++) {
-        const scree_config_stage *stage = &config->stages[i];
+        scree_config_stage *stage = &config->stages[i];
         const scree_boundary *boundary = scree_config_held_by(config, i);
-        if (!boundary || config->dimension == 0) return; // could not be read, and that has been noted
+        if (config->dimension == 0) return; // could not be read, and that has been noted
+        if (!boundary) continue;            // that of a stage before, which is wrong, and noted
         const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
         const char *key = "boundary", *wrong = NULL;
         if (numbers->places) {
@@ -142,13 +156,19 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
             continue;
         }
         if (config->boundary.periodic > 0) wrong = wrong_in_cell(config, stage, numbers, boundary, &key);
-        if (!wrong && !boundary->periodic) wrong = wrong_boundary(reader, config, numbers, boundary);
+        // Of what sources do not go with their stage says more.
+        if (!wrong && numbers->pours && numbers->wrong) wrong = numbers->wrong(config, i, &key);
+        if (!wrong && !boundary->periodic) wrong = wrong_boundary(reader, config, stage, boundary);
         if (round && !boundary->periodic && !boundary->round)
             wrong = with_choices(reader, "a round sample has no plates: give boundary: ", "stages.boundary",
                                  imposes_gradients_on_round, "");
         if (!wrong) wrong = wrong_order(boundary, before);
         if (!wrong && numbers->wrong) wrong = numbers->wrong(config, i, &key);
         if (wrong) refuse(reader, i, key, wrong);
-        before = boundary;
+        // Stages that take it over, and what goes with it, are asked no more.
+        if (wrong && strcmp(key, "boundary") == 0 && stage->boundary != SCREE_CHOICE_AUTO)
+            stage->boundary = SCREE_CHOICE_WRONG;
+        else
+            before = boundary;
     }
 }

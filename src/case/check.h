@@ -89,7 +89,7 @@ void scree_rule_set_text(scree_reader *reader, const char *path, const char *tex
 void scree_rules_check_particles(scree_reader *reader, const scree_config *config);
 
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
-void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
+void scree_rules_check_boundaries(scree_reader *reader, scree_config *config);
 
 /// Those of the laws of pairs of materials (pair_law_rules.c).
 void scree_rules_check_pair_laws(scree_reader *reader, const scree_config *config);

@@ -56,10 +56,10 @@ given corners.csv '^corners\.csv: particles\.corners: this is not a text file'
 : >corners.csv
 given corners.csv "${here}a polygon has 3 to 32 corners, not 0"
 
-# changed SED PATTERN: the case with this change is refused.
+# changed SED PATTERN [STATUS]: the case with this change is refused, or ends so.
 changed() {
     sed "$1" good.yaml >bad.yaml
-    expect 2 "$2" "$scree" check bad.yaml
+    expect "${3:-2}" "$2" "$scree" check bad.yaml
 }
 changed 's/outline: ellipse.*/&\n  axis_ratio: 0.5/' "particles\.axis_ratio: '0\.5' is too small .accepted: 1 to 20"
 changed 's/corners_min: 6/corners_min: 9/' 'particles\.corners_max: 8 is less than corners_min, 9$'
@@ -72,7 +72,8 @@ changed 's/^dimension: 2/dimension: 3/' 'particles\.shape: polygons are bodies i
 changed 's/law: polygon_overlap/law: hertz_mindlin/; /damping_constant/d' 'contact\.law: law hertz_mindlin has no meaning for polygons with sharp corners: give particles\.rounding .*polygon_overlap, polygon_potential'
 changed 's/corners_min: 6/&\n  rounding: 0.1/' 'particles\.rounding: law polygon_overlap .*leave rounding out, or take contact\.law .*linear'
 changed 's/corners_min: 6/&\n  rounding: 1/' "particles\.rounding: '1' is too large .accepted: 0 to 0\.9"
-changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary: membrane' 'stages\.2\.boundary: in a case with walls this stage has no plates and no free surface of the sample: only relax or pour can follow'
+changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary: membrane' 'stages\.2\.boundary: `sources` and boundary: membrane do not go together: in a case with walls this stage has no free surface of the sample: only relax or pour can follow'
+same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
 changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: sources do not pour into a sample that repeats itself: leave boundary\.periodic out'
 changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
 changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'
@@ -101,8 +102,43 @@ expect 3 "source 'spout' has been blocked .*raise the source, pour fewer particl
 expect 0 'stopped' "$scree" get blocked status
 expect 0 '' "$scree" run bad.yaml "${small[@]}" --set sources.spout.place='[0, 10 cm]' --set particles.count=1 --quiet --set stages.settle.duration='1 ms' -o fine
 
-# A funnel whose opening of 4 mm is narrower than its discs: a run that ends says so, one that goes on pouring stops.
+# Sources too small for what they pour, and too near to a wall for the largest of them.
+changed 's/source: point/source: line/; s/place: \[0, 50 cm\]/start: [0, 50 cm]\n    end: [1 mm, 50 cm]/; /sources.spout.place/d' 'warning' 0
+grep -q "warning .*source 'spout' is 0.001 m long, less than its smallest particle, 0.00385 m: it pours like a point; make it longer, or take source: point" <<<"$output" ||
+    complain "no warning of a line of 1 mm: $output"
+changed 's/source: point/source: region/; s/place: \[0, 50 cm\]/lower: [0, 50 cm]\n    upper: [0.1 mm, 50 cm]/; /sources.spout.place/d' \
+    '^bad\.yaml:[0-9]+:[0-9]+: sources\.0\.upper: the region is smaller, 0\.0001 m, than the smallest particle, 0\.00385 m: give corners.*source: point'
+same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
+changed 's/radius_max: .*/radius_max: 40 cm/; s/place: \[0, 50 cm\]/place: [0, 25 cm]/' \
+    "sources\.0: source 'spout' is too near to wall 'plate': .* is 0\.25 m from it, and the largest particle has the radius 0\.[4-6].*smaller particles"
+changed 's/source: point/source: line/; s/place: \[0, 50 cm\]/start: [-10 cm, 50 cm]\n    end: [10 cm, 50 cm]/; /sources.spout.place/d
+    s/^stages:/  - source: point\n    name: within\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' \
+    'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
+
+# Sources pour beside walls alone; what follows from a boundary that does not go with them is not said again.
+changed 's/  - stage: pour/&\n    boundary: membrane/' 'stages\.1\.boundary: `sources` and boundary: membrane do not go together: .*give `walls` and boundary: walls'
+same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
+
+# A funnel whose opening of 4 mm is narrower than its discs is refused; one that is hardly wider may clog.
+opening() { # HALF: half the width in mm
+    printf '%s\n' --set walls.left.corners="[[-$(($1 + 6)) mm, 156 mm], [-$1 mm, 156 mm], [-$(($1 + 30)) mm, 186 mm], [-$(($1 + 36)) mm, 186 mm]]" \
+        --set walls.right.corners="[[$1 mm, 156 mm], [$(($1 + 6)) mm, 156 mm], [$(($1 + 36)) mm, 186 mm], [$(($1 + 30)) mm, 186 mm]]" \
+        --set sources.belt.start='[-20 mm, 20 cm]' --set sources.belt.end='[20 mm, 20 cm]'
+}
+mapfile -t narrow < <(opening 2)
+mapfile -t wide < <(opening 5)
+expect 2 "walls\.2: between this wall, 'right', and wall 'left' is an opening of 0\.004 m below source 'belt', and the narrowest particle is 0\.0069 m wide: none passes; make the opening wider" \
+    "$scree" check pile-hopper --quick "${narrow[@]}"
+expect 2 'an opening of 0\.004 m below source' "$scree" run pile-hopper --quick "${narrow[@]}" -o narrow
+[ -e narrow/series.csv ] && complain "a funnel that nothing passes was run"
+expect 0 "warning .*the opening of 0\.01 m between walls 'left' and 'right', below source 'belt', may clog: the largest particles have a diameter of 0\.0089 m; make it 3 of them wide" \
+    "$scree" check pile-hopper --quick "${wide[@]}"
+expect 0 'pile-hopper' "$scree" check pile-hopper --quick
+grep -q 'opening' <<<"$output" && complain "the funnel of the case is warned of: $output"
+
+# Of walls that move only a run tells: one that ends says so, one that goes on pouring stops.
 funnel=(--quick --no-figures --quiet --set output.paraview=no --set stages.pour.rest_time='50 ms' --set stages.settle.duration='1 ms'
+    --set walls.left.velocity='[1e-12, 0]' --set walls.right.velocity='[1e-12, 0]'
     --set walls.left.corners='[[-8 mm, 156 mm], [-2 mm, 156 mm], [-32 mm, 186 mm], [-38 mm, 186 mm]]'
     --set walls.right.corners='[[2 mm, 156 mm], [8 mm, 156 mm], [38 mm, 186 mm], [32 mm, 186 mm]]'
     --set sources.belt.start='[-3 mm, 17 cm]' --set sources.belt.end='[3 mm, 17 cm]')

@@ -293,7 +293,7 @@ static void what_is_wrong_is_said(void **unused)
     static const char whole[] = HEAD DISCS("20") FLOOR("0") SPOUT STAGES("");
     static const char two[] = TWO STAGES("");
     refuse(whole, ONE("boundary.periodic=x"), "sources.0.source", "do not pour into a sample that repeats itself");
-    refuse(whole, ONE("stages.1.boundary=membrane"), "stages.1.boundary", "give walls and boundary: walls");
+    refuse(whole, ONE("stages.1.boundary=membrane"), "stages.1.boundary", "give `walls` and boundary: walls");
     refuse(HEAD DISCS("20") FLOOR("0") STAGES(""), NULL, 0, "stages.1.stage", "give `sources`");
     refuse(HEAD DISCS("20") FLOOR("0") SPOUT "stages: [{stage: prepare}, {stage: relax, duration: 1 s}]\n", NULL, 0,
            "sources.0.source", "no stage pours");
