@@ -79,9 +79,9 @@ static scree_status check(const scree_theory_pile_of *of, pile_kind kind, scree_
 static void name_relation(const scree_theory_pile_of *of, scree_oriented o, scree_error *error)
 {
     char wanted[sizeof error->accepted];
-    if (strcmp(error->field, "eta") != 0 || isnan(of->tau)) return;
+    if (strcmp(error->field, "eta") != 0 || !isnan(of->eta)) return;
     (void)snprintf(wanted, sizeof wanted, "%s", error->accepted);
-    (void)scree_error_key(error, SCREE_ERROR_INPUT, "tau");
+    (void)scree_error_key(error, SCREE_ERROR_INPUT, "%s", isnan(of->tau) ? "mu" : "tau");
     (void)snprintf(error->accepted, sizeof error->accepted, "%.150s; this is eta = %.3g, mu = %.3g", wanted, o.eta,
                    o.mu);
 }
@@ -97,7 +97,7 @@ static scree_status choose_relation(const scree_theory_pile_of *of, pile_kind ki
         return SCREE_OK;
     }
     if ((eta || mu) && (ratio || tau))
-        return scree_error_refuse(error, "eta", "eta, mu or both; or tau, or K with tau",
+        return scree_error_refuse(error, eta ? "eta" : "mu", "eta, mu or both; or tau, or K with tau",
                                   "eta and mu say the same as K and tau: give one of these pairs");
     if (ratio && !tau)
         return scree_error_refuse(error, "ratio", "K together with tau", "the angle tau is needed beside the ratio K");

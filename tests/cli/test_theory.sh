@@ -132,6 +132,8 @@ expect 2 '--height: .*above 0' "$scree" theory fpa --phi 28 --height 0
 expect 2 '--eta: .*real characteristics.*larger eta' "$scree" theory osl --phi 28 --eta -0.5 --mu 0.2
 expect 2 '--eta: .*same side' "$scree" theory osl --phi 28 --eta -0.1 --mu -1
 expect 2 '--eta: .*flatter than the slope' "$scree" theory osl --phi 28 --eta 1.2 --mu 3
+expect 2 '--mu: eta and mu say the same as K and tau' "$scree" theory osl --phi 28 --mu 0.1 --tau 3
+expect 2 '--mu: both characteristics run to the same side .*accepted: eta above 0; this is eta = -[0-9.]+, mu = 3' "$scree" theory osl --phi 28 --mu 3
 expect 2 '--tau: both characteristics run to the same side .*accepted: eta above 0; this is eta = -[0-9.]+, mu = ' "$scree" theory osl --phi 28 --tau 45
 expect 2 '--ratio: .*K above 0' "$scree" theory osl --phi 28 --ratio -1 --tau 80
 expect 2 '--ratio: .*tau' "$scree" theory osl --phi 28 --ratio 1.3
