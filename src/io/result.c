@@ -3,6 +3,7 @@
 /// A number is given with the fewest digits (15 at least, 17 at most) that read back as the same double: 0.1 comes out
 /// as 0.1 and nothing is lost. null (a value that does not exist, such as a peak that was not reached) is `nan`.
 #include "case/case.h"
+#include "io/result_names.h"
 #include "io/run_directory.h"
 #include "io/summary.h"
 
@@ -81,6 +82,20 @@ scree_status scree_result_get(const char *directory, const char *name, char *val
     return scree_result_find(directory, name, scree_former_results, value, size, error);
 }
 
+/// Whether it is what `scree measure` tells of several runs beside a result that there is: its interval, a test of it.
+static bool is_of_several(const json_t *root, const char *name)
+{
+    static const char *const told[] = {"_checked_low", "_checked_high", "_checked", "_low",
+                                       "_high",        "_height",       "_p",       "_place"};
+    char whole[128];
+    for (size_t k = 0; k < sizeof told / sizeof *told; k++) {
+        if (!scree_result_ends(name, told[k])) continue;
+        (void)snprintf(whole, sizeof whole, "%.*s", (int)(strlen(name) - strlen(told[k])), name);
+        return json_is_number(json_object_get(root, whole)) && !scree_result_name_find(name, NULL);
+    }
+    return false;
+}
+
 scree_status scree_result_find(const char *directory, const char *name, const scree_former_result *former, char *value,
                                size_t size, scree_error *error)
 {
@@ -90,6 +105,11 @@ scree_status scree_result_find(const char *directory, const char *name, const sc
     const json_t *found = find_value(root, name, former);
     if (found) {
         format_value(found, value, size);
+    } else if (is_of_several(root, name)) {
+        status = scree_error_set(error, SCREE_ERROR_INPUT,
+                                 "there is no result '%s' in '%s': it is one of several runs, of which `scree measure "
+                                 "RUN RUN RUN -o DIR` tells it; then `scree get DIR %s`",
+                                 name, directory, name);
     } else {
         const char *names[MOST_NAMES];
         size_t count = 0;
