@@ -265,6 +265,29 @@ scree_status scree_average_kernel_find(const scree_average_sample *sample, doubl
     return status;
 }
 
+/// Squares of |div stress + boundary + density g - resultant| at a point, and of the same without the resultant.
+static void find_squares(const scree_average_sample *sample, const scree_average_kernel *kernel, size_t point,
+                         double *off, double *rest)
+{
+    const size_t d = (size_t)kernel->dimension;
+    *off = *rest = 0;
+    for (size_t a = 0; a < d; a++) {
+        const double left = kernel->divergence[d * point + a], outer = kernel->boundary[d * point + a];
+        const double sum = left + outer + kernel->density[point] * sample->gravity[a];
+        const double wrong = sum - kernel->resultant[d * point + a];
+        *rest += sum * sum;
+        *off += wrong * wrong;
+    }
+}
+
+double scree_average_kernel_residual(const scree_average_sample *sample, const scree_average_kernel *kernel,
+                                     size_t point)
+{
+    double off, rest;
+    find_squares(sample, kernel, point, &off, &rest);
+    return sqrt(off);
+}
+
 scree_average_balance scree_average_kernel_balance(const scree_average_sample *sample,
                                                    const scree_average_kernel *kernel)
 {
@@ -272,15 +295,11 @@ scree_average_balance scree_average_kernel_balance(const scree_average_sample *s
     const double g = scree_length(sample->gravity);
     scree_average_balance balance = {0};
     for (size_t point = 0; point < kernel->count; point++) {
-        double rest = 0, off = 0;
-        for (size_t a = 0; a < d; a++) {
-            const double left = kernel->divergence[d * point + a], outer = kernel->boundary[d * point + a];
-            const double sum = left + outer + kernel->density[point] * sample->gravity[a];
-            const double wrong = sum - kernel->resultant[d * point + a];
-            rest += sum * sum;
-            off += wrong * wrong;
-            if (g == 0) balance.scale = fmax(balance.scale, fmax(fabs(left), fabs(outer)));
-        }
+        double rest, off;
+        find_squares(sample, kernel, point, &off, &rest);
+        for (size_t a = 0; a < d && g == 0; a++)
+            balance.scale = fmax(balance.scale,
+                                 fmax(fabs(kernel->divergence[d * point + a]), fabs(kernel->boundary[d * point + a])));
         if (g > 0) balance.scale = fmax(balance.scale, g * kernel->density[point]);
         balance.rest += rest;
         balance.residual = fmax(balance.residual, sqrt(off));

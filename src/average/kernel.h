@@ -61,6 +61,10 @@ typedef struct scree_average_balance {
     double scale;    ///< largest density g; without gravity the largest of all terms. N/m3
 } scree_average_balance;
 
+/// |div stress + boundary + density g - resultant| at a point [N/m3] of fields that were found with `check`.
+double scree_average_kernel_residual(const scree_average_sample *sample, const scree_average_kernel *kernel,
+                                     size_t point);
+
 /// How well the balance holds, and how far the sample is from rest, in N/m3.
 scree_average_balance scree_average_kernel_balance(const scree_average_sample *sample,
                                                    const scree_average_kernel *kernel);

@@ -180,6 +180,8 @@ static const map_figure map_figures[] = {
      -1e-3, SEQUENTIAL, NO_LINES},
     {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth",
      "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NO_LINES},
+    {MEASURE_KERNEL, "kernel-residual", "residual", "What is left of the balance of forces: round-off",
+     "|div stress + boundary + density g - resultant| over the largest density g", 1, SEQUENTIAL, NO_LINES},
     {MEASURE_KERNEL, "kernel-bulk-modulus", "bulk_modulus", "Bulk modulus, smooth", "K (MPa)", 1e-6, SEQUENTIAL,
      NO_LINES},
     {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "shear stress (kPa)", 1e-3,
@@ -275,7 +277,7 @@ scree_status measure_draw_network(const char *folder, const scree_average_sample
 {
     scree_link *link;
     char path[PATH_MAX];
-    if (sample->dimension == 3) return SCREE_OK;
+    if (sample->dimension == 3 || sample->contacts == 0) return SCREE_OK;
     scree_status status = scree_folders_make(folder, error);
     if (!status) status = scree_path_join(path, sizeof path, folder, "chains", error);
     if (!status) status = scree_allocate(&link, sample->contacts, sizeof *link, error);

@@ -90,9 +90,23 @@ static void tell_kinetic(const scree_average_kernel *kernel, size_t point, scree
     }
 }
 
-/// Rows of the smooth fields.
-static scree_status fill_kernel_table(const scree_average_kernel *kernel, const changes *c, bool kinetic,
-                                      scree_average_table *table, scree_error *error)
+/// The other side of the balance, and by how much of `scale` [N/m3] both differ.
+static void tell_balance(const scree_average_sample *sample, const scree_average_kernel *kernel, double scale,
+                         size_t point, scree_average_table *table)
+{
+    const size_t d = (size_t)kernel->dimension;
+    char name[32];
+    for (size_t a = 0; a < d; a++) {
+        (void)snprintf(name, sizeof name, "resultant_%c", "xyz"[a]);
+        scree_average_table_take(table, name, "N/m3", kernel->resultant[d * point + a]);
+    }
+    scree_average_table_take(table, "residual", "1", scree_average_kernel_residual(sample, kernel, point) / scale);
+}
+
+/// Rows of the smooth fields. scale: of their balance.
+static scree_status fill_kernel_table(const scree_average_sample *sample, const scree_average_kernel *kernel,
+                                      double scale, const changes *c, bool kinetic, scree_average_table *table,
+                                      scree_error *error)
 {
     const size_t d = (size_t)kernel->dimension, *n = kernel->points.number;
     char name[32];
@@ -118,6 +132,7 @@ static scree_status fill_kernel_table(const scree_average_kernel *kernel, const 
             (void)snprintf(name, sizeof name, "velocity_%c", "xyz"[a]);
             scree_average_table_take(table, name, "m/s", kernel->momentum[d * p + a] / kernel->density[p]);
         }
+        tell_balance(sample, kernel, scale, p, table);
         if (kinetic) tell_kinetic(kernel, p, table);
         if (c->earlier) tell_changes(kernel, c, p, table);
         status = scree_average_table_end_row(table, error);
@@ -142,7 +157,7 @@ scree_status measure_kernel(const scree_average_sample *before, const scree_aver
     scree_average_table_take(values, "kernel_imbalance", "1", balance.rest / balance.scale);
     status = find_changes(before, sample, width, &points, plan->threads, &c, error);
     if (!status)
-        status = fill_kernel_table(&kernel, &c, plan->average.fields & SCREE_AVERAGE_KINETIC,
+        status = fill_kernel_table(sample, &kernel, balance.scale, &c, plan->average.fields & SCREE_AVERAGE_KINETIC,
                                    &tables->of[MEASURE_KERNEL], error);
     scree_average_kernel_destroy(&kernel);
     scree_release(&c.earlier);
