@@ -1,4 +1,4 @@
-/// Polygons in runs: they slide, topple, roll and bounce as closed forms say; momentum and energy are kept, with the
+/// Polygons in runs: they slide and topple as closed forms say; momentum and energy are kept, with the
 /// order of the scheme; discs run among them; nothing but the state decides.
 #include "run_fixture.h"
 
