@@ -152,7 +152,7 @@ static void find_totals(scree_average_sample *sample)
         touching++;
     }
     for (size_t c = 0; c < sample->contacts; c++) sample->mean_force += scree_length(sample->contact[c].force);
-    sample->mean_force /= (double)sample->contacts;
+    if (sample->contacts > 0) sample->mean_force /= (double)sample->contacts;
     sample->mean_radius = radii / (double)sample->counted;
     sample->mean_volume = sample->solid / (double)sample->counted;
     sample->unbalanced_ratio = resultants / touching / sample->mean_force;
@@ -162,7 +162,7 @@ static void find_totals(scree_average_sample *sample)
 }
 
 /// Whether all numbers are numbers.
-static scree_status check(const scree_average_sample *sample, scree_error *error)
+static scree_status check(const scree_average_sample *sample, bool loose, scree_error *error)
 {
     size_t grains = 0;
     for (size_t p = 0; p < sample->bodies; p++) {
@@ -173,7 +173,7 @@ static scree_status check(const scree_average_sample *sample, scree_error *error
         grains += grain->counted;
     }
     if (grains == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "there is no grain to average over");
-    if (sample->contacts == 0)
+    if (sample->contacts == 0 && !loose)
         return scree_error_set(error, SCREE_ERROR_INPUT,
                                "there are no contacts: averages of stress and fabric need grains that touch");
     for (size_t c = 0; c < sample->contacts; c++)
@@ -183,9 +183,10 @@ static scree_status check(const scree_average_sample *sample, scree_error *error
     return SCREE_OK;
 }
 
-scree_status scree_average_sample_finish(scree_average_sample *sample, scree_error *error)
+/// loose: there need be no contacts.
+static scree_status finish(scree_average_sample *sample, bool loose, scree_error *error)
 {
-    scree_status status = check(sample, error);
+    scree_status status = check(sample, loose, error);
     sample->count = sample->bodies;
     sample->contact_count = sample->contacts;
     if (!status) status = scree_allocate(&sample->own, sample->bodies, sizeof *sample->own, error);
@@ -198,4 +199,14 @@ scree_status scree_average_sample_finish(scree_average_sample *sample, scree_err
         for (int end = 0; end < 2; end++) add_contact(sample, &sample->contact[c], end);
     find_totals(sample);
     return SCREE_OK;
+}
+
+scree_status scree_average_sample_finish(scree_average_sample *sample, scree_error *error)
+{
+    return finish(sample, false, error);
+}
+
+scree_status scree_average_sample_finish_loose(scree_average_sample *sample, scree_error *error)
+{
+    return finish(sample, true, error);
 }

@@ -100,6 +100,9 @@ scree_status scree_average_sample_of_state(const scree_model *model, const scree
 /// Errors: SCREE_ERROR_INPUT without a grain, without a contact, or not a number; memory.
 scree_status scree_average_sample_finish(scree_average_sample *sample, scree_error *error) SCREE_MUST_USE;
 
+/// The same of a sample whose grains need not touch, for fields that contacts have no part in.
+scree_status scree_average_sample_finish_loose(scree_average_sample *sample, scree_error *error) SCREE_MUST_USE;
+
 /// Adds the images of a finished sample that repeats itself: of all bodies within `margin` [m] of a face of its cell,
 /// and of their contacts. Nothing happens to others. Errors: memory.
 scree_status scree_average_sample_repeat(scree_average_sample *sample, double margin,
@@ -109,6 +112,12 @@ void scree_average_sample_destroy(scree_average_sample *sample);
 /// The corners of a polygon as it lies [m], relative to its centre, of its core where they are rounded; `placed` holds
 /// corner_count.
 void scree_average_outline(const scree_average_sample *sample, const scree_average_grain *grain, double (*placed)[2]);
+
+/// Whether a body bounds the sample: it touches something, unless nothing does.
+static inline bool scree_average_bounds(const scree_average_sample *sample, size_t body)
+{
+    return sample->own[body].contacts > 0 || sample->contacts == 0;
+}
 
 /// Lever of one end of a contact (0: of the first) [m]: from the centre to the point.
 static inline void scree_average_lever(const scree_average_sample *sample, const scree_average_contact *contact,

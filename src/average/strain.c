@@ -108,7 +108,7 @@ static scree_status make_cells(scree_average_strain *strain, scree_error *error)
     }
     for (size_t p = 0; p < sample->count && !status; p++) {
         const scree_average_grain *grain = &sample->grain[p];
-        if (!grain->counted || !grain->moved || sample->own[p].contacts == 0) continue;
+        if (!grain->counted || !grain->moved || !scree_average_bounds(sample, p)) continue;
         scree_subtract(grain->position, grain->displacement, strain->place + 3 * assembly.count);
         memcpy(moved + 3 * assembly.count, grain->displacement, sizeof grain->displacement);
         if (outlines->core)

@@ -174,7 +174,7 @@ static void find_ends(const scree_average_sample *sample, scree_average_surface 
     s->highest = -INFINITY;
     for (size_t p = 0; p < sample->bodies; p++) {
         const scree_average_grain *grain = &sample->grain[p];
-        if (!grain->counted || sample->own[p].contacts == 0) continue;
+        if (!grain->counted || !scree_average_bounds(sample, p)) continue;
         const double top = grain->position[up] + grain->radius;
         if (top <= s->highest) continue;
         s->highest = top;
@@ -229,7 +229,7 @@ scree_status scree_average_surface_find(const scree_average_sample *sample, scre
     if (!status) status = scree_allocate(&s->bottom, count, sizeof *s->bottom, error);
     for (size_t k = 0; k < count && !status; k++) s->top[k] = s->bottom[k] = NAN;
     for (size_t p = 0; p < sample->bodies && !status; p++)
-        if (sample->own[p].contacts > 0) reach = fmax(reach, sample->grain[p].position[sample->dimension - 1]);
+        if (scree_average_bounds(sample, p)) reach = fmax(reach, sample->grain[p].position[sample->dimension - 1]);
     for (size_t p = 0; p < sample->bodies && !status; p++) {
         const scree_average_grain *grain = &sample->grain[p];
         if (grain->counted && grain->position[sample->dimension - 1] <= reach) cover(sample, s, grain);

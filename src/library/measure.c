@@ -228,6 +228,14 @@ static void warn_of_repeats(const char *const *runs, size_t count, const measure
             }
 }
 
+/// No resample leaves the range of the runs.
+static void warn_of_bands(size_t count, const measure_plan *plan)
+{
+    if (count > 1 && count < MEASURE_BANDS)
+        measure_say(plan, "warning: bands and intervals of %zu runs are too narrow: give %d or more", count,
+                    MEASURE_BANDS);
+}
+
 scree_status scree_measure_check(const scree_measure_options *options, scree_error *error)
 {
     measure_plan plan;
@@ -246,6 +254,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     if (!status) status = check_kinds(runs, count, options, error);
     if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
     if (!status) warn_of_repeats(runs, count, &plan);
+    if (!status) warn_of_bands(count, &plan);
     plan.network = !plan.mean && !options->no_figures ? folder : NULL;
     if (!status) status = scree_allocate(&each, count, sizeof *each, error);
     if (!status) status = measure_all(runs, count, &plan, each, &found, error);

@@ -25,6 +25,7 @@ typedef enum measure_product {
     MEASURE_PRODUCTS
 } measure_product;
 
+enum { MEASURE_BANDS = 5 }; ///< bands of fewer runs are too narrow (docs/theory/averages.md), and warned of
 enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 240, MEASURE_FIT_RUNS = 3 };
 
 /// Theories that are fitted to the mean cuts of plane piles, what comes of it, and closures (measure_fit.c).

@@ -344,8 +344,10 @@ scree_status measure_fit(const measure_tables *each, size_t count, const measure
     piles p = {.each = each, .count = count, .without = SIZE_MAX, .plan = plan, .found = found};
     static const char *const names[COMPONENTS] = {"stress_xx", "stress_yy", "stress_xy"};
     if (count < MEASURE_FIT_RUNS)
-        return scree_error_refuse(error, "--fit", NULL,
-                                  "theories are fitted to the mean of three piles or more: their scatter is the error");
+        return scree_error_refuse(
+            error, "--fit", NULL,
+            "theories are fitted to the mean of three piles or more, whose scatter is the error: give the "
+            "folders of several piles");
     for (int c = 0; c < COMPONENTS; c++) p.column[c] = scree_average_table_find(cuts, names[c]);
     p.x = scree_average_table_find(cuts, "x");
     p.y = scree_average_table_find(cuts, "y");

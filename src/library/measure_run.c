@@ -201,7 +201,9 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
     if (scree_average_are_few(view->grains))
         measure_say(plan, "warning: %s: an element holds %.3g grains, fewer than %d: averages over it are noise",
                     directory, view->grains, SCREE_AVERAGE_FEW);
-    if (!(sample->unbalanced_ratio < MEASURE_AT_REST))
+    if (sample->contacts == 0)
+        measure_say(plan, "warning: %s: there are no contacts", directory);
+    else if (!(sample->unbalanced_ratio < MEASURE_AT_REST))
         measure_say(plan,
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
                     "force (averages of stress miss what moves the grains)",
@@ -235,8 +237,17 @@ static scree_status name_snapshot(scree_status status, scree_error *error)
 {
     if (status != SCREE_ERROR_INPUT || !error) return status;
     (void)snprintf(error->field, sizeof error->field, "--at");
-    (void)snprintf(error->accepted, sizeof error->accepted, "another snapshot: end, #N, or a stage");
+    (void)snprintf(error->accepted, sizeof error->accepted,
+                   "another snapshot: end, #N, or a stage; for grains that do not touch --fields density,velocity");
     return status;
+}
+
+/// Finishes a sample: with contacts, where something that is asked for is made of them.
+static scree_status finish(const measure_plan *plan, scree_average_sample *sample, scree_error *error)
+{
+    const unsigned of_contacts = SCREE_AVERAGE_STRESS | SCREE_AVERAGE_FABRIC | SCREE_AVERAGE_ELASTIC;
+    const bool needed = plan->average.fields & of_contacts || plan->kernel || plan->average.sizes > 0 || plan->fits > 0;
+    return needed ? scree_average_sample_finish(sample, error) : scree_average_sample_finish_loose(sample, error);
 }
 
 /// A sample that is finished. before: the earlier state; frame: where places are, found by the first one of several;
@@ -277,7 +288,7 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
     status = move(directory, from, plan, &before, &sample, error);
-    if (!status) status = name_snapshot(scree_average_sample_finish(&sample, error), error);
+    if (!status) status = name_snapshot(finish(plan, &sample, error), error);
     if (!status) status = measure_sample(directory, plan, first, frame, &before, &sample, tables, error);
     scree_average_sample_destroy(&before);
     scree_average_sample_destroy(&sample);
@@ -290,7 +301,7 @@ static scree_status measure_file(const char *path, const measure_plan *plan, mea
     scree_average_sample sample, before = {0};
     scree_status status = measure_file_sample(path, plan, &sample, error);
     if (status) return status;
-    status = scree_average_sample_finish(&sample, error);
+    status = finish(plan, &sample, error);
     if (!status) status = measure_sample(path, plan, true, NULL, &before, &sample, tables, error);
     scree_average_sample_destroy(&sample);
     if (status && error && !error->file[0]) (void)snprintf(error->file, sizeof error->file, "%s", path);

@@ -68,24 +68,33 @@ static scree_status write_dips(const char *folder, const char *name, const measu
 }
 
 /// What has to be known before the averages are believed.
-static void set_warnings(scree_summary *summary, const scree_average_table *values)
+static void set_warnings(scree_summary *summary, const measure_found *found)
 {
+    const scree_average_table *values = &found->mean.of[MEASURE_VALUES];
     const double grains = values->value[scree_average_table_find(values, "element_grains")];
     const double rest = values->value[scree_average_table_find(values, "unbalanced_ratio")];
-    char text[200] = "";
-    if (scree_average_are_few(grains))
+    const bool touching = values->value[scree_average_table_find(values, "contacts")] > 0;
+    char text[160];
+    scree_summary_set_text(summary, "warnings", "");
+    if (scree_average_are_few(grains)) {
         (void)snprintf(text, sizeof text, "elements hold %.3g grains, fewer than %d", grains, SCREE_AVERAGE_FEW);
-    if (!(rest < MEASURE_AT_REST)) {
-        const size_t used = strlen(text);
-        (void)snprintf(text + used, sizeof text - used, "%snot at rest, unbalanced ratio %.3g", used ? "; " : "", rest);
+        scree_summary_add_text(summary, "warnings", text);
+    }
+    if (!touching) scree_summary_add_text(summary, "warnings", "no contacts");
+    if (touching && !(rest < MEASURE_AT_REST)) {
+        (void)snprintf(text, sizeof text, "not at rest, unbalanced ratio %.3g", rest);
+        scree_summary_add_text(summary, "warnings", text);
     }
     const size_t earlier = scree_average_table_find(values, "earlier_unbalanced");
     if (earlier != SIZE_MAX && !(values->value[earlier] < MEASURE_AT_REST)) {
-        const size_t used = strlen(text);
-        (void)snprintf(text + used, sizeof text - used, "%sthe earlier state not at rest, unbalanced ratio %.3g",
-                       used ? "; " : "", values->value[earlier]);
+        (void)snprintf(text, sizeof text, "the earlier state not at rest, unbalanced ratio %.3g",
+                       values->value[earlier]);
+        scree_summary_add_text(summary, "warnings", text);
     }
-    scree_summary_set_text(summary, "warnings", text);
+    if (found->runs > 1 && found->runs < MEASURE_BANDS) {
+        (void)snprintf(text, sizeof text, "bands of %zu runs are too narrow", found->runs);
+        scree_summary_add_text(summary, "warnings", text);
+    }
 }
 
 /// A number of a dip.
@@ -117,7 +126,7 @@ static void set_values(scree_summary *summary, const measure_found *found)
     const scree_average_table *mean = &found->mean.of[MEASURE_VALUES];
     char name[64];
     scree_summary_set_integer(summary, "runs", (int64_t)found->runs);
-    set_warnings(summary, mean);
+    set_warnings(summary, found);
     for (size_t k = 0; k < mean->columns; k++) {
         scree_summary_set_number(summary, mean->column[k].name, mean->value[k]);
         if (found->runs < 2) continue;

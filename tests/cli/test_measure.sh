@@ -13,7 +13,7 @@ done
 expect 0 'kernel_residual' "$scree" measure pile1 --fields density,coordination,stress,fabric,inertia,velocity \
     --grid 12x8 --kernel 3 --cuts 2 -o one
 for file in values.csv cuts.csv map.csv kernel.csv forces.csv friction.csv rose.csv dips.csv summary.json \
-    cuts-pressure-scaled.png map-stress-vertical.png kernel-stress-shear.png force-distribution.png rose.png chains.png; do
+    cuts-pressure-scaled.png map-stress-vertical.png kernel-stress-shear.png kernel-residual.png force-distribution.png rose.png chains.png; do
     checks=$((checks + 1))
     [ -s "one/$file" ] || complain "there is no one/$file"
 done
@@ -34,6 +34,10 @@ awk -v plate="$("$scree" get one outside_force_ratio)" -v row="$("$scree" get on
     -v residual="$("$scree" get one kernel_residual)" -v run="$("$scree" get pile1 weight_ratio)" \
     'BEGIN { exit !(plate > 0.999 && plate < 1.001 && row > 0.98 && row < 1.02 && residual < 1e-9 && (plate - run) ^ 2 < 1e-16) }' ||
     complain "plate, lowest row or residual"
+# The residual of the balance of forces as a map: its largest value is that of the summary.
+checks=$((checks + 1))
+awk -F, -v whole="$("$scree" get one kernel_residual)" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "residual [1]") r = k; next }
+    { if ($r > most) most = $r } END { exit !(r && most > 0 && (most / whole - 1) ^ 2 < 1e-12) }' one/kernel.csv || complain "residuals of one/kernel.csv"
 # A map of more places than lines can be told apart still has lines, of which one stands for several places.
 expect 0 'holds 2 grains' "$scree" measure pile1 --element 2 --grid 100x50 -o fine
 checks=$((checks + 1))
@@ -46,6 +50,12 @@ expect 0 'warning: pile1: an element holds 6 grains, fewer than 30' "$scree" mea
 expect 0 'height +dip +interval' "$scree" measure pile1 pile2 --cuts 0,0.4 --no-figures -o both
 head -1 both/cuts.csv | grep -q 'stress_yy_low \[Pa\]' || complain "no bands in both/cuts.csv"
 same "$("$scree" get both runs)" 2 runs
+grep -q 'warning: bands and intervals of 2 runs are too narrow: give 5 or more' <<<"$output" || complain "nothing is said of bands of two runs"
+same "$("$scree" get both warnings)" "elements hold 6 grains, fewer than 30; bands of 2 runs are too narrow" "warnings of two runs"
+expect 2 "no result 'dip_low' in 'pile1': it is one of several runs, of which .scree measure RUN RUN RUN -o DIR. tells it; then .scree get DIR dip_low" \
+    "$scree" get pile1 dip_low
+expect 2 "no result 'dip_height' in 'pile1': it is one of several runs" "$scree" get pile1 dip dip_height
+expect 2 "no result 'dips' in 'pile1' .accepted: dip" "$scree" get pile1 dips
 checks=$((checks + 1))
 awk -v low="$("$scree" get both dip_low)" -v dip="$("$scree" get both dip)" -v high="$("$scree" get both dip_high)" -v p="$("$scree" get both dip_p)" \
     'BEGIN { exit !(low <= dip && dip <= high && p >= 0.25 && p <= 1) }' || complain "interval or p of the dip"
@@ -102,6 +112,11 @@ expect 0 'warning: pile1: not at rest: .* of the mean contact force' "$scree" me
 expect 0 '' "$scree" run rotating-drum --quick --set particles.count=40 --set stages.settle.duration="1 ms" --set stages.turn.duration="1 ms" \
     --set output.paraview=no --set output.figures=no --threads 1 --quiet -o gas
 expect 2 '--at: there are no contacts.*another snapshot' "$scree" measure gas --at start
+# Densities and velocities need none.
+expect 0 'warning: gas: there are no contacts' "$scree" measure gas --at start --fields density,velocity --grid 6x4 -o apart
+same "$("$scree" get apart warnings)" "elements hold 4 grains, fewer than 30; no contacts" "warnings of a gas"
+checks=$((checks + 1))
+[ -s apart/map-density.png ] && ! grep -q nan apart/map.csv || complain "no densities of a gas: $(head -3 apart/map.csv)"
 # One run has no interval, and says so.
 expect 0 'one run has no interval and no p: give the folders of several piles' "$scree" measure pile1 --no-figures -o few
 [ -e nothing ] && complain "a folder was made of a run that is not there"
@@ -140,6 +155,7 @@ grep -qE '^\| plate .*\| 6 of 6 \| \*\*agrees\*\* \| quick' forms.md || complain
 grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/averaged-all-full.png ] || complain "no figure in the report"
 
 # Theories are fitted to three piles or more: BCC is the smooth wedge, and OSL the wedge with a free core.
+expect 2 "three piles or more.*give the folders of several piles" "$scree" measure pile1 --fit bcc --no-figures -o none
 expect 2 "three piles or more" "$scree" measure pile1 pile2 --fit bcc --no-figures -o none
 expect 2 "no theory of piles 'bbc'" "$scree" measure pile1 pile2 --fit osl,bbc --no-figures -o none
 expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=3 --threads 1 --quiet -o pile3
