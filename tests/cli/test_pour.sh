@@ -11,17 +11,29 @@ wanted=$("$scree" get one state_checksum)
 same "$("$scree" get two state_checksum)" "$wanted" "two threads"
 
 # Killed as soon as there is a checkpoint in mid-pour.
-"$scree" run pour-discs "${small[@]}" --quiet --no-figures -o killed >/dev/null 2>&1 &
-run=$!
-for ((i = 0; i < 1200; i++)); do
-    ls killed/parts/checkpoint-00000[3-9].h5 >/dev/null 2>&1 && break
-    sleep 0.02
-done
-kill -KILL "$run" 2>/dev/null
-wait "$run" 2>/dev/null
-expect 0 'checkpoint' "$scree" check killed
-expect 0 '' "$scree" run --restart killed --quiet
+kill_and_continue() {
+    local folder=$1 run
+    shift
+    "$scree" run "$@" --quiet --no-figures -o "$folder" >/dev/null 2>&1 &
+    run=$!
+    for ((i = 0; i < 1200; i++)); do
+        ls "$folder"/parts/checkpoint-00000[3-9].h5 >/dev/null 2>&1 && break
+        sleep 0.02
+    done
+    kill -KILL "$run" 2>/dev/null
+    wait "$run" 2>/dev/null
+    expect 0 'checkpoint' "$scree" check "$folder"
+    expect 0 '' "$scree" run --restart "$folder" --quiet
+}
+kill_and_continue killed pour-discs "${small[@]}"
 same "$("$scree" get killed state_checksum)" "$wanted" "killed in mid-pour"
+
+# The same of polygons, whose outlines and contacts of areas come back.
+polygons=(pile-point --quick --set particles.count=12 --set sources.spout.interval="20 ms" --set output.paraview=no
+    --set output.figures=no --set output.checkpoint_steps=5000 --set stages.settle.duration="50 ms")
+expect 0 '' "$scree" run "${polygons[@]}" --quiet -o angular
+kill_and_continue angular-killed "${polygons[@]}"
+same "$("$scree" get angular-killed state_checksum)" "$("$scree" get angular state_checksum)" "polygons killed in mid-pour"
 
 same "$("$scree" get one grains)" 40 "grains of the pile"
 checks=$((checks + 1))
