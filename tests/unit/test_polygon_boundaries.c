@@ -4,6 +4,7 @@
 
 #include "io_scratch.h"
 
+#include "measure/cells.h"
 #include "measure/measure.h"
 #include "state/periodic.h"
 
@@ -68,17 +69,68 @@ static void contacts_carry_what_the_boundary_exerts(void **unused)
         scree_simulation s;
         open_case(&cases[k], 1, &c, &s);
         (void)simulation_finish(&s);
-        const double axial = s.sample[SCREE_SAMPLE_AXIAL_CONTACTS],
-                     lateral = s.sample[SCREE_SAMPLE_LATERAL_CONTACTS];
+        const double axial = s.sample[SCREE_SAMPLE_AXIAL_CONTACTS], lateral = s.sample[SCREE_SAMPLE_LATERAL_CONTACTS];
         print_message("%-9s axial %.6g, plates %.6g, lateral %.6g, applied %.6g\n", cases[k].name, axial,
-                      s.sample[SCREE_SAMPLE_AXIAL_PLATES], lateral,
-                      s.sample[SCREE_SAMPLE_LATERAL_APPLIED]);
+                      s.sample[SCREE_SAMPLE_AXIAL_PLATES], lateral, s.sample[SCREE_SAMPLE_LATERAL_APPLIED]);
         if (k == 0) assert_true(fabs(axial / s.sample[SCREE_SAMPLE_AXIAL_PLATES] - 1) < 2e-3);
         if (k != 2) assert_true(fabs(lateral / 1e5 - 1) < 0.05); // membrane: some of it is its own tension
         assert_true(axial > lateral);
         scree_simulation_close(&s);
         scree_case_free(c);
     }
+}
+
+/// Means of cells over their volume.
+static void find_mean(const scree_cells *cells, double (*const tensor)[9], double mean[9], double *volume)
+{
+    *volume = 0;
+    for (int i = 0; i < 9; i++) mean[i] = 0;
+    for (size_t k = 0; k < cells->count; k++) *volume += cells->volume[k];
+    for (size_t k = 0; k < cells->count; k++)
+        for (int i = 0; i < 9; i++) mean[i] += cells->volume[k] / *volume * tensor[k][i];
+}
+
+/// The stress of the cells is to round-off that of the contacts between grains. Under a pressure on all sides it is
+/// that pressure, but for what the rim without cells bears: half a layer of 50 grains, whose forces scatter by 1 /
+/// sqrt(50). Centres that move by u = G X strain the cells by G.
+static void cells_average_to_the_boundary(void **unused)
+{
+    (void)unused;
+    const double strain[9] = {0.01, 0.004, 0, -0.002, -0.02};
+    scree_case *c;
+    scree_simulation s;
+    scree_error error;
+    scree_assembly all;
+    scree_cells cells;
+    double sum[9] = {0}, moved[3 * 50] = {0}, mean[9], volume;
+    open_case(&cases[1], 1, &c, &s);
+    simulation_load(&s);
+    check(scree_neighbours_refresh(&s.stage_model, &s.state, &s.work, &error), &error);
+    check(scree_contact_table_build(&s.stage_model, &s.state, &s.work, &s.table, &error), &error);
+    check(scree_cells_measure(&s.stage_model, &s.state, &s.table, &cells, &error), &error);
+    check(scree_assembly_of_state(&s.stage_model, &s.state, &all, &error), &error);
+    for (size_t k = 0; k < s.table.count; k++) {
+        const scree_contact *contact = &s.table.contact[k];
+        for (int i = 0; i < 9 && !contact->wall; i++)
+            sum[i] -=
+                (contact->normal_force * contact->normal[i / 3] + contact->tangential_force * contact->tangent[i / 3]) *
+                contact->branch[i % 3];
+    }
+    find_mean(&cells, cells.stress, mean, &volume);
+    for (int i = 0; i < 9; i++) assert_true(fabs(mean[i] * volume - sum[i]) < 1e-12 * fabs(sum[0]));
+    print_message("stress of the cells %.6g %.6g, %.3g Pa\n", mean[0], mean[4], mean[1]);
+    assert_true(fabs(mean[0] / -1e5 - 1) < 0.15 && fabs(mean[4] / -1e5 - 1) < 0.15 && fabs(mean[1]) < 15e3);
+    assert_int_equal(all.count, 50);
+    for (size_t k = 0; k < all.count; k++)
+        for (size_t i = 0; i < 2; i++)
+            moved[3 * k + i] = strain[3 * i] * all.position[3 * k] + strain[3 * i + 1] * all.position[3 * k + 1];
+    scree_cells_gradient(&cells, all.position, moved, cells.gradient);
+    find_mean(&cells, cells.gradient, mean, &volume);
+    for (int i = 0; i < 9; i++) assert_true(fabs(mean[i] - strain[i]) < 1e-12);
+    scree_cells_destroy(&cells);
+    scree_assembly_destroy(&all);
+    scree_simulation_close(&s);
+    scree_case_free(c);
 }
 
 /// Two threads, and a restart in the middle of the loading: the same bits.
@@ -136,6 +188,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_balance_closes),
         cmocka_unit_test(contacts_carry_what_the_boundary_exerts),
+        cmocka_unit_test(cells_average_to_the_boundary),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(a_periodic_cell_keeps_momentum),
     };
