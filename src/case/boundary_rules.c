@@ -165,8 +165,8 @@ void scree_rules_check_boundaries(scree_reader *reader, scree_config *config)
         if (!wrong) wrong = wrong_order(boundary, before);
         if (!wrong && numbers->wrong) wrong = numbers->wrong(config, i, &key);
         if (wrong) refuse(reader, i, key, wrong);
-        // Stages that take it over, and what goes with it, are asked no more.
-        if (wrong && strcmp(key, "boundary") == 0 && stage->boundary != SCREE_CHOICE_AUTO)
+        // Where sources pour, stages that take it over and what goes with it have nothing else to say.
+        if (wrong && config->source_count > 0 && strcmp(key, "boundary") == 0 && stage->boundary != SCREE_CHOICE_AUTO)
             stage->boundary = SCREE_CHOICE_WRONG;
         else
             before = boundary;
