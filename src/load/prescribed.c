@@ -9,6 +9,7 @@
 #include "module/key_rows.h"
 
 #include <stdio.h>
+#include <string.h>
 
 typedef scree_prescribed own;
 typedef scree_prescribed_config config;
@@ -247,6 +248,13 @@ static void sum_forces(const scree_state *state, int64_t load, double sum[SCREE_
     scree_comm_wide_total(state, &part, 1, 1, total);
     for (int d = 0; d < SCREE_COMPONENTS; d++)
         sum[d] = total[d] * (d < 3 ? state->force_quantum : state->torque_quantum);
+}
+
+void scree_prescribed_force(const scree_state *state, int64_t load, double force[3])
+{
+    double sum[SCREE_COMPONENTS];
+    sum_forces(state, load, sum);
+    memcpy(force, sum, 3 * sizeof *force);
 }
 
 static scree_status measure(const scree_context *c, size_t index, double *value, scree_error *error)

@@ -97,6 +97,9 @@ static inline const char *scree_prescribed_name(const scree_prescribed_config *o
 bool scree_prescribed_drives(const scree_prescribed_config *own, int component);
 bool scree_prescribed_pushes(const scree_prescribed_config *own, int component);
 
+/// Force of a load on its bodies [N], as it was at the last forces; the same in all processes.
+void scree_prescribed_force(const scree_state *state, int64_t load, double force[3]);
+
 /// prescribed_begin.c: who is prescribed what in the stage that begins. Errors: a selection without bodies; two loads
 /// that say the same component of a body; memory.
 scree_status scree_prescribed_begin(const scree_context *context, scree_error *error) SCREE_MUST_USE;

@@ -52,7 +52,7 @@
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \
     row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
-        row(slopes) row(pile) row(increments) row(response) row(finite_elements) row(orientation) row(stress_path)     \
+        row(slopes) row(pile) row(increments) row(response) row(response_watch) row(finite_elements) row(orientation) row(stress_path)     \
             row(outflow) row(surface) row(loading_curves) row(window_bands)
 
 #define SCREE_MODULES(row)                                                                                             \

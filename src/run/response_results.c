@@ -2,9 +2,9 @@
 /// before the load, with the contacts that the load has made, lost or brought to sliding (average/response.h).
 ///
 /// The unloaded layer is that of the last snapshot before the load begins, the loaded one that of the last one, where
-/// the load still acts. Snapshots in between tell how large the load was before the first contact changed; its force at
-/// them is that of series.csv. Tables: response.csv (along cuts), response-depths.csv (their peaks),
-/// response-contacts.csv.
+/// the load still acts; its force is that of series.csv. Snapshots in between tell which contacts slide while it grows.
+/// Up to which load nothing changes: response_watch.c. Tables: response.csv (along cuts), response-depths.csv (their
+/// peaks), response-contacts.csv.
 #include "average/strain.h"
 #include "base/vectors.h"
 #include "case/check.h"
@@ -14,8 +14,7 @@
 #include "module/key_rows.h"
 #include "run/conclusion.h"
 #include "run/response_curves.h"
-#include "selection/selection.h"
-#include "selection/top.h"
+#include "run/response_load.h"
 #include "state/body.h"
 
 #include <limits.h>
@@ -91,10 +90,7 @@ static void rules(scree_reader *reader, const scree_config *whole)
                           "responses are those of layers in two dimensions that do not repeat themselves");
 }
 
-typedef struct numbers {
-    int64_t load; ///< -1: none
-    double element, poisson;
-} numbers;
+typedef scree_response_numbers numbers;
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
@@ -109,81 +105,15 @@ static scree_status resolve(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
-static const numbers *numbers_of(const scree_model *model)
-{
-    const numbers *n = scree_model_numbers(model, SCREE_SLOT_response);
-    return n && n->load >= 0 ? n : NULL;
-}
-
-// ---- what is loaded ----------------------------------------------------------------------------------------------
-
-static scree_status refuse(scree_error *error, const char *format, uint32_t one, uint32_t other)
-{
-    return scree_error_refuse(error, "measure.response_load", NULL, format, one, other);
-}
-
-/// The row of the one grain that the load presses on.
-static scree_status find_loaded(const scree_model *model, const scree_state *state, int64_t load, uint32_t *found,
-                                scree_error *error)
-{
-    const scree_prescribed_config *own = scree_prescribed_config_of(model->loads, load);
-    const int64_t selection = scree_config_selection_find(model->selections, model->selection_count, own->selection);
-    size_t next = 0;
-    *found = SCREE_NO_ROW;
-    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
-        if (!scree_selection_has(state, selection, row)) continue;
-        if (*found != SCREE_NO_ROW)
-            return refuse(error,
-                          "the load presses on particle %u and on particle %u: the response is that to a load on one "
-                          "grain, such as that of a selection `top`",
-                          state->id[*found], state->id[row]);
-        *found = row;
-    }
-    return SCREE_OK;
-}
-
-/// Elements lie within the layer.
-static scree_status check_element(const numbers *n, const scree_state *state, scree_error *error)
-{
-    double wide[2], high[2];
-    if (n->element == 0) return SCREE_OK;
-    scree_grains_ends(state, 0, wide);
-    scree_grains_ends(state, 1, high);
-    if (n->element <= fmin(wide[1] - wide[0], high[1] - high[0])) return SCREE_OK;
-    return scree_error_refuse(error, "measure.response_element", "auto: two mean diameters",
-                              "an element of %.3g m is larger than the layer, which is %.3g m wide and %.3g m high",
-                              n->element, wide[1] - wide[0], high[1] - high[0]);
-}
-
 /// Its selection and its element are looked for among all bodies.
 static bool begins_whole(const scree_context *c)
 {
-    return numbers_of(c->model) != NULL;
+    return scree_response_numbers_of(c->model) != NULL;
 }
 
-/// The load presses on a grain at the top when it begins to act.
 static scree_status begin(const scree_context *c, scree_error *error)
 {
-    const numbers *n = numbers_of(c->model);
-    int64_t range[2];
-    uint32_t row;
-    if (!n) return SCREE_OK;
-    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, n->load);
-    scree_load_stages(c->model->stages, c->model->stage_count, own->from, own->until, range);
-    if (c->state->stage.index != range[0]) return SCREE_OK;
-    const int64_t selection =
-        scree_config_selection_find(c->model->selections, c->model->selection_count, own->selection);
-    scree_status status = scree_selection_resolve(c->model, c->state, selection, error);
-    if (!status) status = find_loaded(c->model, c->state, n->load, &row, error);
-    if (!status) status = check_element(n, c->state, error);
-    if (status) return status;
-    const uint32_t above = scree_row_above(c->state, row);
-    return above == SCREE_NO_ROW
-               ? SCREE_OK
-               : refuse(error,
-                        "the load presses on particle %u, which is not at the top: particle %u stands over it; let it "
-                        "press on a selection `top`",
-                        c->state->id[row], c->state->id[above]);
+    return scree_response_load_begins(c) ? scree_response_check_load(c, error) : SCREE_OK;
 }
 
 // ---- results -----------------------------------------------------------------------------------------------------
@@ -206,7 +136,6 @@ static const scree_result results[] = {
     {"response_lost", "1", "contacts that there were before the load alone"},
     {"response_sliding", "1",
      "contacts whose friction is used up (to 0.1 %) in a snapshot under the load and was not before"},
-    {"response_unchanged_force", "N", "largest load, of the snapshots, up to which no contact was made, lost or slid"},
     {"response_order", "1",
      "Re sum f exp(6 i angle) / sum f of the normal forces f between grains under load: 1 where all point along "
      "multiples of 60 degrees"},
@@ -240,8 +169,6 @@ static const scree_result results[] = {
     {"response_horizontal_misfit_smooth", "1", "the same of the layer on a smooth base"},
     {"response_horizontal_misfit_bonded", "1", "the same of the layer bonded to its base"},
 };
-
-#define USED_UP 0.999 /* of the friction of a contact that slides, or is about to */
 
 /// What is needed while results are found.
 typedef struct finding {
@@ -309,8 +236,7 @@ static scree_status read_sample(const finding *f, size_t mark, scree_average_sam
         const uint32_t first = sample->grain[c->first].id;
         const uint32_t second =
             c->second == SCREE_AVERAGE_OUTSIDE ? SCREE_AVERAGE_OUTSIDE : sample->grain[c->second].id;
-        const double limit = USED_UP * friction_of(f->run->s, first, second) * c->normal_force;
-        c->sliding = limit > 0 && fabs(c->tangential_force) >= limit;
+        c->sliding = scree_response_slides(friction_of(f->run->s, first, second), c->tangential_force, c->normal_force);
     }
     return status;
 }
@@ -319,7 +245,7 @@ static scree_status read_samples(finding *f, scree_error *error)
 {
     const scree_simulation *s = f->run->s;
     uint32_t row;
-    scree_status status = find_loaded(&s->model, &s->state, f->n->load, &row, error);
+    scree_status status = scree_response_find_loaded(&s->model, &s->state, f->n->load, &row, error);
     if (!status) status = read_sample(f, f->first, &f->before, error);
     if (!status) status = read_sample(f, f->count - 1, &f->after, error);
     if (!status) status = scree_average_move(&f->after, &f->before, error);
@@ -363,12 +289,9 @@ static scree_status add_sliding(finding *f, const scree_response_changes *now, s
     return status;
 }
 
-/// Goes through the snapshots under load: what slid, and the largest load of those before the first that has another
-/// contact.
-static scree_status follow_load(finding *f, double *force, scree_error *error)
+/// Goes through the snapshots under load: what slid.
+static scree_status follow_load(finding *f, scree_error *error)
 {
-    bool unchanged = true;
-    *force = 0;
     for (size_t k = f->first + 1; k < f->count; k++) {
         scree_average_sample sample;
         scree_response_changes changes = {0};
@@ -378,8 +301,6 @@ static scree_status follow_load(finding *f, double *force, scree_error *error)
         scree_average_sample_destroy(&sample);
         scree_release(&changes.list);
         if (status) return status;
-        unchanged = unchanged && changes.count == 0;
-        if (unchanged) *force = fmax(*force, force_at(f, f->mark[k].time));
     }
     return SCREE_OK;
 }
@@ -430,8 +351,8 @@ static double grains_of(const finding *f)
 
 static scree_status set_results(finding *f, scree_error *error)
 {
-    double missing = 0, unchanged, contacts = 0;
-    scree_status status = follow_load(f, &unchanged, error);
+    double missing = 0, contacts = 0;
+    scree_status status = follow_load(f, error);
     if (status) return status;
     for (int k = 0; k < SCREE_RESPONSE_LEVELS; k++) missing = fmax(missing, fabs(f->curves->level[k].missing));
     for (size_t c = 0; c < f->before.contacts; c++) contacts += f->before.grain[f->before.contact[c].first].counted;
@@ -449,7 +370,6 @@ static scree_status set_results(finding *f, scree_error *error)
     set(f, "made", "", (double)f->changes.made);
     set(f, "lost", "", (double)f->changes.lost);
     set(f, "sliding", "", (double)f->changes.sliding);
-    set(f, "unchanged_force", "", unchanged);
     set(f, "order", "", scree_response_order(&f->after, true));
     set(f, "force_order", "", scree_response_order(&f->after, false));
     set(f, "unbalanced", "", fmax(f->before.unbalanced_ratio, f->after.unbalanced_ratio));
@@ -550,7 +470,7 @@ static scree_status find_all(finding *f, scree_error *error)
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     scree_error why = {0};
-    finding f = {.run = run, .n = numbers_of(&run->s->model)};
+    finding f = {.run = run, .n = scree_response_numbers_of(&run->s->model)};
     // A run that has been stopped before the load acts has none.
     if (!f.n || !scree_prescribed_of(&run->s->state)->acts[f.n->load]) return SCREE_OK;
     scree_status status = find_all(&f, &why);

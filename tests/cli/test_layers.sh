@@ -46,8 +46,44 @@ for theory in half_space smooth bonded; do
     awk '{ printf "%.5g %.5g\n", $1, $2 }' <<<"$("$scree" get rough "response_horizontal_over_$theory") $("$scree" get rough "response_horizontal_misfit_$theory")" >found
     same "$(cat found)" "$(cat wanted)" "horizontal response and $theory"
 done
-# A larger load, with the same layer, changes more contacts; the first is its limit.
-between rough response_unchanged_force 0 20
+# The largest load that changes nothing is told from a load that begins slowly; a run that is
+# continued before and after the first change, or on two threads, tells the same. The contacts are those of the snapshots.
+slow=("${layer[@]}" --set loads.piston.velocity_y="{from: 0 m/s, to: -10 mm/s, begin: 0 s, end: 4 s}" --set stages.press.duration="60 ms")
+expect 0 '' "$scree" run "${slow[@]}" -o slow
+expect 0 '' "$scree" run "${slow[@]}" --set materials.stone.friction=0.1 -o slippery
+# With little friction a contact slides first, with more one is made under a larger load.
+same "$("$scree" get slow response_first_made)$("$scree" get slow response_first_sliding)" 10 "what changes first with friction 0.3"
+same "$("$scree" get slippery response_first_made)$("$scree" get slippery response_first_sliding)" 01 "what changes first with friction 0.1"
+between slippery response_unchanged_force 0.05 0.2
+for run in slow slippery; do
+    least=$("$scree" get $run response_unchanged_force)
+    between $run response_changed_force "$least" "$(awk -v f="$least" 'BEGIN { print 1.05 * f }')"
+    friction=0.3
+    [ $run = slippery ] && friction=0.1
+    # A load below it changes no contact to the end, a larger one does; at this velocity waves are some 5 % of the load.
+    for part in 0.92 1.06; do
+        expect 0 '' "$scree" run "${slow[@]}" --set materials.stone.friction=$friction --set loads.piston.until_force="$(awk -v f="$least" -v p=$part 'BEGIN { print p * f }') N" -o $run-$part
+        sum=$("$scree" get $run-$part response_made response_lost response_sliding | awk '{ s += $2 } END { print s }')
+        [ $part = 0.92 ] && { same "$sum" 0 "contacts that a smaller load changes, $run"; between $run-$part response_unchanged_force "$(awk -v f="$least" 'BEGIN { print 0.919 * f }')" 1; }
+        [ $part = 0.92 ] || between $run-$part response_unchanged_force "$(awk -v f="$least" 'BEGIN { print 0.9 * f }')" "$(awk -v f="$least" 'BEGIN { print 1.05 * f }')"
+        [ $part = 0.92 ] || between $run-$part response_changed_force 0 1
+    done
+done
+expect 0 '' "$scree" run "${slow[@]}" --threads 2 -o slow2
+cp -r slow slow4
+cp -r slow slow24
+expect 0 '' "$scree" run --restart slow4 --from 4 --quiet
+expect 0 '' "$scree" run --restart slow24 --from 24 --quiet
+for run in slow2 slow4 slow24; do
+    for result in unchanged_force changed_force first_made first_lost first_sliding; do
+        same "$("$scree" get $run response_$result)" "$("$scree" get slow response_$result)" "$result of $run"
+    done
+done
+# A load that changes nothing: all of it, and no first change.
+expect 0 '' "$scree" run "${slow[@]}" --set loads.piston.until_force="0.2 N" -o faint
+between faint response_unchanged_force 0.1999 0.2001
+expect 2 'no result .response_changed_force' "$scree" get faint response_changed_force
+same "$("$scree" get faint response_made) $("$scree" get faint response_lost) $("$scree" get faint response_sliding)" "0 0 0" "contacts that a faint load changes"
 
 # Threads.
 expect 0 '' "$scree" run "${layer[@]}" --threads 2 -o two
