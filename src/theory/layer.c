@@ -115,16 +115,17 @@ scree_status scree_layer_half_width(const scree_layer *layer, double y, double *
 
 // ---- residuals ---------------------------------------------------------------------------------------------------
 
-/// Central differences of eighth order over steps of `step` in one direction: first and second derivative.
+/// Central differences of twelfth order over steps of `step` in one direction: first and second derivative. With steps
+/// of 1/50 of the depth what they leave out is some 1e-15, and what rounding leaves 1e-14 and 1e-12.
 static void differences(const scree_layer *layer, double x, double y, bool along_x, double step,
                         const gsl_integration_glfixed_table *table, scree_stress_2d *first, scree_stress_2d *second)
 {
-    static const double one[] = {0, 4. / 5, -1. / 5, 4. / 105, -1. / 280};
-    static const double two[] = {-205. / 72, 8. / 5, -1. / 5, 8. / 315, -1. / 560};
+    static const double one[] = {0, 6. / 7, -15. / 56, 5. / 63, -1. / 56, 1. / 385, -1. / 5544};
+    static const double two[] = {-5369. / 1800, 12. / 7, -15. / 56, 10. / 189, -1. / 112, 2. / 1925, -1. / 16632};
     const scree_stress_2d here = stress_at(layer, x, y, table);
     *first = (scree_stress_2d){0};
     *second = (scree_stress_2d){two[0] * here.xx, two[0] * here.yy, two[0] * here.xy};
-    for (int k = 1; k <= 4; k++)
+    for (int k = 1; k <= 6; k++)
         for (int sign = -1; sign <= 1; sign += 2) {
             const double by = sign * k * step;
             const scree_stress_2d s = stress_at(layer, along_x ? x + by : x, along_x ? y : y + by, table);
@@ -163,7 +164,8 @@ static void examine_base(const scree_layer *layer, double x, const gsl_integrati
     check->base = fmax(check->base, fmax(fabs(along), fabs(up)) * height / layer->force);
 }
 
-/// Trapezoids over x = H tan(angle), which is exact for the half-space; a layer falls exponentially.
+/// Trapezoids over x = H tan(angle), which is exact for the half-space; a layer falls exponentially, at the slowest as
+/// exp(-0.74 x / H): bonded, with a Poisson's ratio of 1/2.
 static double force_on_base(const scree_layer *layer, const gsl_integration_glfixed_table *table)
 {
     enum { STEPS = 200 };
@@ -171,7 +173,7 @@ static double force_on_base(const scree_layer *layer, const gsl_integration_glfi
     for (int k = -STEPS + 1; k < STEPS; k++) {
         const double angle = M_PI_2 * k / STEPS, x = layer->thickness * tan(angle);
         // Beyond this nothing is left of a layer, and waves would need ever more panels.
-        if (layer->base != SCREE_LAYER_NONE && fabs(x) > 20 * layer->thickness) continue;
+        if (layer->base != SCREE_LAYER_NONE && fabs(x) > 50 * layer->thickness) continue;
         sum += stress_at(layer, x, layer->thickness, table).yy / (cos(angle) * cos(angle));
     }
     return sum * M_PI_2 / STEPS * layer->thickness;
