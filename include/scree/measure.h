@@ -26,7 +26,8 @@ typedef struct scree_measure_options {
     const char *at; ///< "start", "end", "#12", a snapshot, the name of a stage, "10 %" of axial strain; "mean:STAGE" or
                     ///< "mean:10", mean over its snapshots, or over the last ones
     const char *from;   ///< the same but for means: displacements and strains from there on
-    const char *fit;    ///< theories of piles that are fitted to the mean stresses, "ife,bcc,fpa,osl,wedge"
+    const char *fit;    ///< theories of piles that are fitted to the mean stresses, "ife,bcc,fpa,osl,wedge", or of
+                        ///< layers to the mean response to a load, "flamant,layer_smooth,layer_bonded", "layer"
     const char *axis;   ///< "mass", "apex", or a place, "0 mm"
     long points;        ///< places along a cut
     int threads;        ///< that find elements and smooth fields
@@ -46,10 +47,10 @@ typedef struct scree_measure_options {
 /// Whether `scree_measure` could read these options. Errors: SCREE_ERROR_INPUT with the option as field.
 SCREE_API scree_status scree_measure_check(const scree_measure_options *options, scree_error *error);
 
-/// Measures the runs in these folders, or the grains in these files (of Scree, LAMMPS, LIGGGHTS, YADE, or tables), which
-/// need a `sample_case`, and writes tables, values and figures (docs/output.md, "Measured averages").
-/// Several runs are an ensemble: means with bootstrap bands over them. Errors: SCREE_ERROR_INPUT with the option as
-/// field; SCREE_ERROR_IO; memory.
+/// Measures the runs in these folders, or the grains in these files (of Scree, LAMMPS, LIGGGHTS, YADE, or tables),
+/// which need a `sample_case`, and writes tables, values and figures (docs/output.md, "Measured averages"). Several
+/// runs are an ensemble: means with bootstrap bands over them. Errors: SCREE_ERROR_INPUT with the option as field;
+/// SCREE_ERROR_IO; memory.
 SCREE_API scree_status scree_measure(const char *const *runs, size_t count, const scree_measure_options *options,
                                      scree_error *error);
 

@@ -60,7 +60,8 @@ const scree_verb scree_results_verbs[] = {
                    {.name = "fit",
                     .value = "NAMES",
                     .meaning = "theories fitted to the mean stresses of three piles or more, with commas: ife, bcc, "
-                               "fpa, osl, oriented, wedge"},
+                               "fpa, osl, oriented, wedge; or to the response of layers to a load: flamant, "
+                               "layer_smooth, layer_bonded, or layer for all three"},
                    {.name = "axis",
                     .value = "mass|apex|X",
                     .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a position",

@@ -26,36 +26,47 @@ static void found_destroy(measure_found *found)
     scree_release(&found->fits);
 }
 
+/// A mean over some of the runs alone is not that of the others: rows that one has not, a size that does not fit or a
+/// place beyond its ends, have none, from column `first` on.
+static void leave_out(const scree_average_table *same, size_t count, int product, size_t first, measure_found *found)
+{
+    scree_average_table *const all[] = {&found->mean.of[product], &found->low.of[product], &found->high.of[product]};
+    for (size_t row = 0; row < same->rows; row++)
+        for (size_t i = 0; i < count; i++) {
+            if (isfinite(scree_average_table_get(&same[i], row, first))) continue;
+            for (size_t t = 0; t < 3; t++)
+                for (size_t k = first; k < all[t]->columns && row < all[t]->rows; k++)
+                    all[t]->value[row * all[t]->columns + k] = NAN;
+        }
+}
+
+/// The tables of one product. A layer that gives way has no response: the others are the ensemble.
+static size_t gather(const measure_tables *each, size_t count, int product, scree_average_table *same)
+{
+    size_t taken = 0;
+    for (size_t i = 0; i < count; i++)
+        if (product != MEASURE_RESPONSE || each[i].of[product].rows > 0) same[taken++] = each[i].of[product];
+    return taken > 0 && same[0].rows > 0 ? taken : 0;
+}
+
 static scree_status find_means(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
 {
     scree_average_table *same;
     scree_status status = scree_allocate(&same, count, sizeof *same, error);
     for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) {
-        if (each[0].of[k].rows == 0) continue;
-        for (size_t i = 0; i < count; i++) same[i] = each[i].of[k];
+        const size_t taken = gather(each, count, k, same);
+        if (k == MEASURE_RESPONSE) found->responses = taken;
+        if (taken == 0) continue;
         status =
-            scree_average_table_mean(same, count, &found->mean.of[k], &found->low.of[k], &found->high.of[k], error);
-        if (!status && count > 1)
-            status = scree_average_elastic_ensemble(same, count, &found->mean.of[k],
+            scree_average_table_mean(same, taken, &found->mean.of[k], &found->low.of[k], &found->high.of[k], error);
+        if (!status && taken > 1)
+            status = scree_average_elastic_ensemble(same, taken, &found->mean.of[k],
                                                     found->low.of[k].rows > 0 ? &found->low.of[k] : NULL,
                                                     &found->high.of[k], error);
+        if (!status && k == MEASURE_RESPONSE) leave_out(same, taken, k, MEASURE_RESPONSE_PLACE, found);
     }
     scree_release(&same);
     return status;
-}
-
-/// A mean over some of the runs alone is not that of the others: a size that does not fit in one has none.
-static void leave_out(const scree_average_table *sizes, size_t count, measure_found *found)
-{
-    scree_average_table *const all[] = {&found->mean.of[MEASURE_SIZES], &found->low.of[MEASURE_SIZES],
-                                        &found->high.of[MEASURE_SIZES]};
-    for (size_t row = 0; row < sizes->rows; row++)
-        for (size_t i = 0; i < count; i++) {
-            if (isfinite(scree_average_table_get(&sizes[i], row, 2))) continue;
-            for (size_t t = 0; t < 3; t++)
-                for (size_t k = 2; k < all[t]->columns && row < all[t]->rows; k++)
-                    all[t]->value[row * all[t]->columns + k] = NAN;
-        }
 }
 
 /// What elements of each size scatter by from run to run.
@@ -65,7 +76,7 @@ static scree_status find_scatter(const measure_tables *each, size_t count, measu
     if (count < 2 || each[0].of[MEASURE_SIZES].rows == 0) return SCREE_OK;
     scree_status status = scree_allocate(&same, count, sizeof *same, error);
     for (size_t i = 0; i < count && !status; i++) same[i] = each[i].of[MEASURE_SIZES];
-    if (!status) leave_out(same, count, found);
+    if (!status) leave_out(same, count, MEASURE_SIZES, 2, found);
     if (!status) status = scree_average_sizes_scatter(same, count, &found->mean.of[MEASURE_SCATTER], error);
     for (scree_average_sized k = 0; k < SCREE_AVERAGE_SIZED && !status; k++)
         scree_average_sizes_exponent(same, count, k, &found->exponent[k][0], &found->exponent[k][1],
@@ -161,6 +172,13 @@ static void say_dips(const measure_plan *plan, const measure_found *found)
     if (found->runs == 1) measure_say(plan, "one run has no interval and no p: give the folders of several piles");
 }
 
+static void say_responses(const measure_plan *plan, const measure_found *found)
+{
+    if (found->responses > 0 && found->responses < found->runs)
+        measure_say(plan, "warning: %zu of %zu runs have a response to a load: its means are theirs", found->responses,
+                    found->runs);
+}
+
 static void say_fits(const measure_plan *plan, const measure_fits *fits)
 {
     for (size_t k = 0; fits && k < fits->numbers; k++) {
@@ -195,7 +213,9 @@ static scree_status measure_all(const char *const *runs, size_t count, const mea
     if (!status) status = find_means(each, count, found, error);
     if (!status) status = find_scatter(each, count, found, error);
     if (!status) status = find_dips(each, count, plan, found, error);
-    if (!status && plan->fits > 0) status = measure_fit(each, count, plan, found, error);
+    if (!status && plan->fits > 0)
+        status = plan->layers ? measure_fit_layers(each, count, plan, found, error)
+                              : measure_fit(each, count, plan, found, error);
     return status;
 }
 
@@ -261,6 +281,7 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     if (!status) {
         say_values(&plan, &found);
         say_dips(&plan, &found);
+        say_responses(&plan, &found);
         say_fits(&plan, found.fits);
         status = scree_folders_make(folder, error);
     }

@@ -21,14 +21,16 @@ typedef enum measure_product {
     MEASURE_FRICTION,
     MEASURE_ROSE,
     MEASURE_SIZES,
-    MEASURE_SCATTER, ///< of an ensemble alone
+    MEASURE_SCATTER,  ///< of an ensemble alone
+    MEASURE_RESPONSE, ///< of runs with a response to a load (measure_response.c)
     MEASURE_PRODUCTS
 } measure_product;
 
 enum { MEASURE_BANDS = 5 }; ///< bands of fewer runs are too narrow (docs/theory/averages.md), and warned of
 enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 240, MEASURE_FIT_RUNS = 3 };
 
-/// Theories that are fitted to the mean cuts of plane piles, what comes of it, and closures (measure_fit.c).
+/// Theories that are fitted to the mean cuts of plane piles, what comes of it, and closures (measure_fit.c); or to the
+/// mean response of layers (measure_fit_layers.c).
 typedef struct measure_fit_number {
     char name[64];
     const char *unit;
@@ -37,7 +39,7 @@ typedef struct measure_fit_number {
 } measure_fit_number;
 
 typedef struct measure_fit_row {
-    size_t cut;
+    size_t cut;            ///< of layers the depth, from 0
     scree_fit_point point; ///< folded: x >= 0
     scree_stress_2d theory[MEASURE_FITS];
     bool fitted; ///< one of those that fits are made to
@@ -49,9 +51,10 @@ typedef struct measure_fits {
     bool solved[MEASURE_FITS];
     size_t numbers;
     measure_fit_number number[MEASURE_FIT_NUMBERS];
-    size_t rows;
+    size_t rows, room;
     measure_fit_row *row;
     double slope[2]; ///< rad, left and right
+    bool layers;
 } measure_fits;
 
 #define MEASURE_AT_REST 1e-2 /* what is not at rest has a larger unbalanced ratio */
@@ -75,6 +78,7 @@ typedef struct measure_plan {
     bool two_slopes;               ///< fits do not fold
     const char *fit[MEASURE_FITS]; ///< names of theories that are fitted
     size_t fits;
+    bool layers;         ///< they are theories of layers
     const char *network; ///< folder that the network of the run is drawn into; NULL: it is not
     const scree_measure_options *options;
 } measure_plan;
@@ -90,6 +94,7 @@ typedef struct measure_found {
     scree_average_dip *dip;                  ///< a cut; NULL: no stress along cuts
     scree_average_dip *strain_dip;           ///< the same of the vertical strain; NULL: no elastic constants
     measure_fits *fits;                      ///< NULL: none was asked for
+    size_t responses;                        ///< runs that have a response to a load
     double exponent[SCREE_AVERAGE_SIZED][3]; ///< of the scatter of the tensors against the size, with its interval
     double dip_height;                       ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;
@@ -114,14 +119,42 @@ scree_status measure_kernel(const scree_average_sample *before, const scree_aver
                             const scree_average_view *view, const measure_plan *plan, measure_tables *tables,
                             scree_error *error);
 
-/// Fits the theories of the plan. Errors: SCREE_ERROR_INPUT with field --fit for fewer runs than MEASURE_FIT_RUNS,
-/// samples that are not plane piles, cuts without stress; memory.
+enum { MEASURE_RESPONSE_PLACE = 3 }; ///< columns of depth, place and element, before the values
+
+/// Profiles of the response of a run to a load, from its response.csv, over the thickness of the layer and over what
+/// the load is over it; no rows without a response. thickness: across the plane [m]. Errors: SCREE_ERROR_INPUT for a
+/// table that is none, SCREE_ERROR_IO; memory.
+scree_status measure_response(const char *directory, double thickness, scree_average_table *table, scree_error *error);
+/// Draws the mean profiles. Errors: SCREE_ERROR_IO; memory.
+scree_status measure_draw_response(const char *folder, const measure_found *found, scree_error *error);
+
+/// Fits the theories of piles of the plan. Errors: SCREE_ERROR_INPUT with field --fit for fewer runs than
+/// MEASURE_FIT_RUNS, samples that are not plane piles, cuts without stress; memory.
 scree_status measure_fit(const measure_tables *each, size_t count, const measure_plan *plan, measure_found *found,
                          scree_error *error);
 scree_status measure_fit_write(const char *folder, const measure_plan *plan, const measure_fits *fits,
                                scree_error *error);
 scree_status measure_fit_draw(const char *folder, const measure_plan *plan, const measure_fits *fits,
                               scree_error *error);
+
+/// The same of layers. Errors: SCREE_ERROR_INPUT with field --fit for runs without a response; memory.
+scree_status measure_fit_layers(const measure_tables *each, size_t count, const measure_plan *plan,
+                                measure_found *found, scree_error *error);
+scree_status measure_fit_layers_write(const char *folder, const measure_fits *fits, scree_error *error);
+scree_status measure_fit_layers_draw(const char *folder, const measure_fits *fits, scree_error *error);
+
+/// Tells a number; `second` is part of its name.
+void measure_fit_tell(measure_fits *fits, const char *first, const char *second, const char *unit, bool sampled,
+                      double value);
+/// Tells theory k; what was not solved tells the same names without numbers. measured: weight, or force, that the
+/// fitted one is told over.
+void measure_fit_tell_theory(measure_fits *fits, size_t k, const scree_fit *fit, bool solved, double measured);
+/// All numbers with one sample left out (SIZE_MAX: none).
+typedef scree_status measure_fit_find(measure_fits *fits, void *user, size_t without, scree_error *error);
+/// Intervals from leaving out each of `count` samples once. Errors: those of `find`; memory.
+scree_status measure_fit_jackknife(measure_fits *fits, size_t count, measure_fit_find *find, void *user,
+                                   scree_error *error);
+scree_status measure_fit_write_numbers(const char *folder, const measure_fits *fits, scree_error *error);
 
 /// Writes what was found into the folder. Errors: SCREE_ERROR_IO.
 scree_status measure_write(const char *folder, const measure_plan *plan, const measure_found *found,

@@ -303,6 +303,9 @@ scree_status measure_draw(const char *folder, const measure_plan *plan, const me
         status = draw_map(folder, found, &map_figures[k], error);
     if (!status) status = draw_forces(folder, found, error);
     if (!status) status = measure_draw_sizes(folder, found, error);
-    if (!status && found->fits) status = measure_fit_draw(folder, plan, found->fits, error);
+    if (!status) status = measure_draw_response(folder, found, error);
+    if (!status && found->fits)
+        status = found->fits->layers ? measure_fit_layers_draw(folder, found->fits, error)
+                                     : measure_fit_draw(folder, plan, found->fits, error);
     return status ? status : measure_draw_clouds(folder, plan, found, error);
 }

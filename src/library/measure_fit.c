@@ -19,7 +19,6 @@
 #include "io/run_directory.h"
 #include "view/chart.h"
 
-#include <gsl/gsl_cdf.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -172,58 +171,6 @@ static bool solve(const char *theory, const double slope[2], double weight, size
     return found;
 }
 
-static void tell(measure_fits *fits, const char *first, const char *second, const char *unit, bool sampled,
-                 double value)
-{
-    measure_fit_number *n = &fits->number[fits->numbers];
-    if (fits->numbers == MEASURE_FIT_NUMBERS) return;
-    (void)snprintf(n->name, sizeof n->name, "%s%s%s", first, second[0] ? "_" : "", second);
-    n->unit = unit;
-    n->sampled = sampled;
-    n->value = value;
-    n->low = n->high = NAN;
-    fits->numbers++;
-}
-
-/// Distance of the theory from the measured stresses over these, roots of mean squares.
-static double misfit_of(const measure_fit_row *row, size_t rows, size_t theory)
-{
-    double distance = 0, size = 0;
-    for (size_t k = 0; k < rows; k++) {
-        const scree_stress_2d *a = &row[k].point.stress, *b = &row[k].theory[theory];
-        if (!row[k].fitted) continue;
-        distance += pow(a->xx - b->xx, 2) + pow(a->yy - b->yy, 2) + 2 * pow(a->xy - b->xy, 2);
-        size += a->xx * a->xx + a->yy * a->yy + 2 * a->xy * a->xy;
-    }
-    return sqrt(distance / size);
-}
-
-/// Tells a fit; what was not solved tells the same names without numbers.
-static void tell_fit(measure_fits *fits, size_t k, const scree_fit *fit, bool solved, double weight)
-{
-    char name[40];
-    (void)snprintf(name, sizeof name, "fit_%s", fits->theory[k]);
-    for (size_t i = 0; i < fit->parameters; i++) {
-        const scree_fit_parameter *p = &fit->parameter[i];
-        const bool angle = strcmp(p->unit, "rad") == 0, is_weight = strcmp(p->name, "weight") == 0;
-        if (!p->free) continue;
-        const double value = is_weight ? p->value / weight : angle ? p->value / DEGREE : p->value;
-        tell(fits, name, is_weight ? "weight_ratio" : p->name, angle ? "degree" : "1", true, solved ? value : NAN);
-    }
-    scree_fit_derived derived[SCREE_FIT_DERIVED];
-    const size_t count = fit->theory->derive ? fit->theory->derive(fit->theory, fit->parameter, derived) : 0;
-    for (size_t i = 0; i < count; i++) {
-        const bool angle = strcmp(derived[i].unit, "rad") == 0;
-        tell(fits, name, derived[i].name, angle ? "degree" : "1", true,
-             solved ? derived[i].value / (angle ? DEGREE : 1) : NAN);
-    }
-    tell(fits, name, "misfit", "1", true, solved ? misfit_of(fits->row, fits->rows, k) : NAN);
-    tell(fits, name, "chi_square", "1", false, solved ? fit->chi_square : NAN);
-    tell(fits, name, "reduced", "1", false, solved ? fit->reduced : NAN);
-    tell(fits, name, "probability", "1", false, solved ? fit->probability : NAN);
-    tell(fits, name, "information", "1", false, solved ? fit->information : NAN);
-}
-
 static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *error)
 {
     const bool two = p->plan->two_slopes;
@@ -248,7 +195,7 @@ static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *err
         if (!solved) status = scree_fit_begin(fits->theory[k], &fit, error);
         for (size_t i = 0; i < fits->rows && solved; i++) fits->row[i].theory[k] = stress[i];
         fits->solved[k] = solved;
-        if (!status) tell_fit(fits, k, &fit, solved, weight);
+        if (!status) measure_fit_tell_theory(fits, k, &fit, solved, weight);
     }
     scree_release(&fitted);
     scree_release(&all);
@@ -278,15 +225,17 @@ static void tell_closure(measure_fits *fits, const char *where, double from, dou
         ratio += r->point.stress.xx / r->point.stress.yy;
         number++;
     }
-    tell(fits, "mohr_coulomb", where, "1", true, number > 0 ? yielding / number : NAN);
-    tell(fits, "stress_ratio", where, "1", true, number > 0 ? ratio / number : NAN);
+    measure_fit_tell(fits, "mohr_coulomb", where, "1", true, number > 0 ? yielding / number : NAN);
+    measure_fit_tell(fits, "stress_ratio", where, "1", true, number > 0 ? ratio / number : NAN);
 }
 
 // ---- the whole ---------------------------------------------------------------------------------------------------
 
 /// All numbers of a set of piles. fits: with names and room for rows.
-static scree_status find_numbers(measure_fits *fits, const piles *p, scree_error *error)
+static scree_status find_numbers(measure_fits *fits, void *user, size_t without, scree_error *error)
 {
+    piles *p = user;
+    p->without = without;
     fits->numbers = 0;
     fits->rows = lay_out(p, fits->row);
     size_t fitted = 0;
@@ -300,39 +249,6 @@ static scree_status find_numbers(measure_fits *fits, const piles *p, scree_error
     const double half = mean_value(p, "triangle_height") * 0.5 * (1 / tan(fits->slope[0]) + 1 / tan(fits->slope[1]));
     tell_closure(fits, "axis", 0, AXIS, half);
     tell_closure(fits, "flank", FLANK, FLANK_END, half);
-    return status;
-}
-
-/// Intervals from leaving out each pile once.
-static scree_status jackknife(measure_fits *fits, piles *p, scree_error *error)
-{
-    const double n = (double)p->count;
-    double sum[MEASURE_FIT_NUMBERS] = {0}, squares[MEASURE_FIT_NUMBERS] = {0};
-    measure_fits *without = NULL;
-    scree_status status = scree_allocate(&without, 1, sizeof *without, error);
-    if (!status) *without = *fits;
-    if (!status)
-        status =
-            scree_allocate(&without->row, p->plan->average.cuts * p->plan->average.points, sizeof *without->row, error);
-    for (p->without = 0; p->without < p->count && !status; p->without++) {
-        status = find_numbers(without, p, error);
-        for (size_t k = 0; k < fits->numbers && !status; k++) {
-            // Sums of what differs from the whole: no digits are lost.
-            const double change = without->number[k].value - fits->number[k].value;
-            sum[k] += change;
-            squares[k] += change * change;
-        }
-    }
-    for (size_t k = 0; k < fits->numbers && !status; k++) {
-        measure_fit_number *number = &fits->number[k];
-        const double error_of = sqrt((n - 1) / n * fmax(0, squares[k] - sum[k] * sum[k] / n));
-        const double half = gsl_cdf_tdist_Pinv(0.975, n - 1) * error_of;
-        if (!number->sampled) continue;
-        number->low = number->value - half;
-        number->high = number->value + half;
-    }
-    if (without) scree_release(&without->row);
-    scree_release(&without);
     return status;
 }
 
@@ -365,10 +281,10 @@ scree_status measure_fit(const measure_tables *each, size_t count, const measure
     if (status) return status;
     found->fits->count = plan->fits;
     for (size_t k = 0; k < plan->fits; k++) found->fits->theory[k] = plan->fit[k];
-    status =
-        scree_allocate(&found->fits->row, plan->average.cuts * plan->average.points, sizeof *found->fits->row, error);
-    if (!status) status = find_numbers(found->fits, &p, error);
-    return status ? status : jackknife(found->fits, &p, error);
+    found->fits->room = plan->average.cuts * plan->average.points;
+    status = scree_allocate(&found->fits->row, found->fits->room, sizeof *found->fits->row, error);
+    if (!status) status = find_numbers(found->fits, &p, SIZE_MAX, error);
+    return status ? status : measure_fit_jackknife(found->fits, count, find_numbers, &p, error);
 }
 
 // ---- files -------------------------------------------------------------------------------------------------------
@@ -400,16 +316,7 @@ scree_status measure_fit_write(const char *folder, const measure_plan *plan, con
 {
     char path[PATH_MAX];
     FILE *file;
-    scree_status status = scree_path_join(path, sizeof path, folder, "fits.csv", error);
-    if (!status) status = scree_replace_begin(path, &file, error);
-    if (status) return status;
-    fputs("name,unit,value,low,high\n", file);
-    for (size_t k = 0; k < fits->numbers; k++) {
-        const measure_fit_number *n = &fits->number[k];
-        fprintf(file, "%s,%s,%.9g,%.9g,%.9g\n", n->name, n->unit, n->value, n->low, n->high);
-    }
-    status = scree_replace_finish(path, file, true, error);
-    if (!status) status = scree_path_join(path, sizeof path, folder, "fit-points.csv", error);
+    scree_status status = scree_path_join(path, sizeof path, folder, "fit-points.csv", error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (status) return status;
     put_rows(file, plan, fits);

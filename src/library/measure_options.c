@@ -77,26 +77,36 @@ static scree_status read_sizes(const char *text, scree_average_plan *plan, scree
     return plan->sizes > 0 ? SCREE_OK : scree_error_refuse(error, "--sizes", accepted, "no size is named");
 }
 
-/// Names of theories; `wedge` are all four of them.
+/// Whether a word means a theory; `wedge` means all four of them, `layer` those of layers.
+static bool means(const char *word, size_t length, const char *theory)
+{
+    if (length == 5 && strncmp(word, "wedge", 5) == 0) return strncmp(theory, "wedge_", 6) == 0;
+    if (length == 5 && strncmp(word, "layer", 5) == 0) return scree_fit_is_layer(theory);
+    return strlen(theory) == length && strncmp(theory, word, length) == 0;
+}
+
 static scree_status read_fits(const char *text, measure_plan *plan, scree_error *error)
 {
-    const char *accepted = "ife, bcc, fpa, osl, oriented, wedge, wedge_dip, wedge_smooth, wedge_peak, wedge_core";
+    const char *accepted = "of piles ife, bcc, fpa, osl, oriented, wedge, wedge_dip, wedge_smooth, wedge_peak, "
+                           "wedge_core; of layers layer, flamant, layer_smooth, layer_bonded";
+    size_t layers = 0;
     for (const char *at = text; *at;) {
-        const size_t length = strcspn(at, ",");
-        const bool wedges = length == 5 && strncmp(at, "wedge", 5) == 0;
-        const size_t before = plan->fits;
+        const size_t length = strcspn(at, ","), before = plan->fits;
         const char *name;
         for (size_t k = 0; (name = scree_fit_theory_name(k)); k++) {
-            const bool pile = strcmp(name, "flamant") != 0 && strncmp(name, "layer", 5) != 0;
-            const bool meant =
-                wedges ? strncmp(name, "wedge_", 6) == 0 : strlen(name) == length && strncmp(name, at, length) == 0;
-            if (pile && meant && plan->fits < MEASURE_FITS) plan->fit[plan->fits++] = name;
+            if (!means(at, length, name) || plan->fits == MEASURE_FITS) continue;
+            plan->fit[plan->fits++] = name;
+            layers += scree_fit_is_layer(name);
         }
         if (plan->fits == before)
-            return scree_error_refuse(error, "--fit", accepted, "there is no theory of piles '%.*s'", (int)length, at);
+            return scree_error_refuse(error, "--fit", accepted, "there is no theory '%.*s'", (int)length, at);
         at += length;
         at += *at == ',';
     }
+    plan->layers = layers > 0;
+    if (layers > 0 && layers < plan->fits)
+        return scree_error_refuse(error, "--fit", "theories of piles, or of layers",
+                                  "theories of piles and of layers are not fitted to the same runs");
     return plan->fits > 0 ? SCREE_OK : scree_error_refuse(error, "--fit", accepted, "no theory is named");
 }
 

@@ -290,6 +290,8 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     status = move(directory, from, plan, &before, &sample, error);
     if (!status) status = name_snapshot(finish(plan, &sample, error), error);
     if (!status) status = measure_sample(directory, plan, first, frame, &before, &sample, tables, error);
+    if (!status && sample.dimension == 2)
+        status = measure_response(directory, sample.thickness, &tables->of[MEASURE_RESPONSE], error);
     scree_average_sample_destroy(&before);
     scree_average_sample_destroy(&sample);
     if (status && error && !error->file[0]) (void)snprintf(error->file, sizeof error->file, "%s", directory);

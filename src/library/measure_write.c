@@ -9,9 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *const measure_files[MEASURE_PRODUCTS] = {"values.csv", "cuts.csv",   "map.csv",
-                                                     "kernel.csv", "forces.csv", "friction.csv",
-                                                     "rose.csv",   "sizes.csv",  "scatter.csv"};
+const char *const measure_files[MEASURE_PRODUCTS] = {"values.csv",  "cuts.csv",     "map.csv",  "kernel.csv",
+                                                     "forces.csv",  "friction.csv", "rose.csv", "sizes.csv",
+                                                     "scatter.csv", "response.csv"};
 
 /// A header with units, and rows; of an ensemble every number with both ends of its band behind it.
 static void write_rows(FILE *file, const scree_average_table *mean, const scree_average_table *low,
@@ -126,6 +126,7 @@ static void set_values(scree_summary *summary, const measure_found *found)
     const scree_average_table *mean = &found->mean.of[MEASURE_VALUES];
     char name[64];
     scree_summary_set_integer(summary, "runs", (int64_t)found->runs);
+    if (found->responses > 0) scree_summary_set_integer(summary, "responses", (int64_t)found->responses);
     set_warnings(summary, found);
     for (size_t k = 0; k < mean->columns; k++) {
         scree_summary_set_number(summary, mean->column[k].name, mean->value[k]);
@@ -174,6 +175,9 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
     for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) status = write_table(folder, found, k, error);
     if (!status) status = write_dips(folder, "dips.csv", plan, found->dip, error);
     if (!status) status = write_dips(folder, "strain-dips.csv", plan, found->strain_dip, error);
-    if (!status && found->fits) status = measure_fit_write(folder, plan, found->fits, error);
+    if (!status && found->fits) status = measure_fit_write_numbers(folder, found->fits, error);
+    if (!status && found->fits)
+        status = found->fits->layers ? measure_fit_layers_write(folder, found->fits, error)
+                                     : measure_fit_write(folder, plan, found->fits, error);
     return status ? status : write_summary(folder, found, error);
 }

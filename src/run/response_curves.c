@@ -31,28 +31,7 @@ static double vertical_strain(const strains *s, const scree_average_element *ele
     return -gradient[SCREE_AVERAGE_BAGI][4];
 }
 
-/// Mean over an element with the weights of a hat, by 3 points of Gauss along each half and along y. The load lies on
-/// top.
-static scree_status add_theory(const scree_response *r, const scree_layer *layer, double depth, double x,
-                               double mean[2], scree_error *error)
-{
-    static const double at[3] = {-0.774596669241483377, 0, 0.774596669241483377};
-    static const double weight[3] = {5. / 18, 8. / 18, 5. / 18};
-    const double deepest = layer->base == SCREE_LAYER_NONE ? INFINITY : layer->thickness;
-    scree_status status = SCREE_OK;
-    mean[0] = mean[1] = 0;
-    for (int k = 0; k < 18 && !status; k++) {
-        const double half = k < 9 ? -0.5 : 0.5, across = half + 0.5 * at[k % 3];
-        const double share = weight[k % 3] * weight[k / 3 % 3] * (1 - fabs(across));
-        scree_stress_2d stress = {0};
-        status = scree_layer_stress(layer, x + r->side * across, fmin(depth + 0.5 * r->side * at[k / 3 % 3], deepest),
-                                    &stress, error);
-        mean[0] += share * stress.yy;
-        mean[1] += share * stress.xx;
-    }
-    return status;
-}
-
+/// Means over the same elements.
 static scree_status add_theories(const scree_response *r, double poisson, double thickness, double x, size_t point,
                                  scree_response_level *level, scree_error *error)
 {
@@ -60,11 +39,11 @@ static scree_status add_theories(const scree_response *r, double poisson, double
     scree_layer layer = {.force = r->force / r->after->thickness, .thickness = thickness, .poisson = poisson};
     scree_status status = SCREE_OK;
     for (int k = 0; k < 3 && !status; k++) {
-        double mean[2];
+        scree_stress_2d mean;
         layer.base = base[k];
-        status = add_theory(r, &layer, level->depth, x, mean, error);
-        level->value[SCREE_RESPONSE_HALF_SPACE + k][point] = mean[0];
-        level->value[SCREE_RESPONSE_HALF_SPACE_HORIZONTAL + k][point] = mean[1];
+        status = scree_layer_mean(&layer, x, level->depth, r->side, &mean, error);
+        level->value[SCREE_RESPONSE_HALF_SPACE + k][point] = mean.yy;
+        level->value[SCREE_RESPONSE_HALF_SPACE_HORIZONTAL + k][point] = mean.xx;
     }
     return status;
 }

@@ -24,10 +24,11 @@ static scree_status put_figure(const scree_finding *f, const char *figure, bool 
     if (status) return status;
     (void)fprintf(page, "\n![%s %s, %s form](%s/%s)\n\n*%s %s, %s form: ", f->name, point,
                   scree_finding_form_names[f->form], link, file, f->name, point, scree_finding_form_names[f->form]);
-    if (strcmp(figure, "chains") == 0)
-        (void)fprintf(page, "the first run.*\n");
+    const size_t runs = scree_ensemble_runs(f->ensemble);
+    if (strcmp(figure, "chains") == 0 || runs == 1)
+        (void)fprintf(page, "%s run.*\n", runs == 1 ? "one" : "the first");
     else
-        (void)fprintf(page, "mean of %zu runs with bands of 95 %%.*\n", scree_ensemble_runs(f->ensemble));
+        (void)fprintf(page, "mean of %zu runs with bands of 95 %%.*\n", runs);
     return status;
 }
 

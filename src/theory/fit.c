@@ -36,6 +36,11 @@ const char *scree_fit_theory_name(size_t number)
     return scree_fit_theories[k].name;
 }
 
+bool scree_fit_is_layer(const char *theory)
+{
+    return strcmp(theory, "flamant") == 0 || strncmp(theory, "layer", 5) == 0;
+}
+
 scree_status scree_fit_begin(const char *theory, scree_fit *fit, scree_error *error)
 {
     *fit = (scree_fit){0};

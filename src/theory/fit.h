@@ -33,6 +33,9 @@ typedef struct scree_fit {
 /// behind the last one.
 const char *scree_fit_theory_name(size_t number);
 
+/// Whether a theory of this name is one of the response of a layer to a load; else it is one of a pile.
+bool scree_fit_is_layer(const char *theory);
+
 /// The parameters of a theory, with values to begin with; which are free is the usual choice: the slopes are held.
 /// Errors: SCREE_ERROR_INPUT with the nearest name.
 scree_status scree_fit_begin(const char *theory, scree_fit *fit, scree_error *error) SCREE_MUST_USE;

@@ -11,7 +11,7 @@
 /// Places of the parameters that piles have in common.
 enum { WEIGHT, APEX_X, APEX_Y, SLOPE, FIRST_OWN, SLOPE_RIGHT = FIRST_OWN, CORE };
 /// Those of layers.
-enum { FORCE, LOAD_X, THICKNESS, POISSON };
+enum { FORCE, LOAD_X, ELEMENT, THICKNESS, POISSON };
 
 typedef enum pile_kind { IFE, BCC, FPA, OSL, ORIENTED } pile_kind;
 
@@ -150,8 +150,11 @@ static scree_status layer(const scree_fit_theory *theory, const scree_fit_parame
     if (!(of.thickness > 0)) return no_solution("thickness", error);
     if (!(of.poisson > -1 && of.poisson <= 0.5)) return no_solution("poisson_ratio", error);
     scree_status status = SCREE_OK;
-    for (size_t k = 0; k < count && !status; k++)
-        status = scree_layer_stress(&of, points[k].x - p[LOAD_X].value, points[k].y, &stress[k], error);
+    for (size_t k = 0; k < count && !status; k++) {
+        const double x = points[k].x - p[LOAD_X].value, side = p[ELEMENT].value;
+        status = side > 0 ? scree_layer_mean(&of, x, points[k].y, side, &stress[k], error)
+                          : scree_layer_stress(&of, x, points[k].y, &stress[k], error);
+    }
     return status;
 }
 
@@ -170,7 +173,9 @@ static scree_status layer(const scree_fit_theory *theory, const scree_fit_parame
 #define TWO_SLOPES                                                                                                     \
     HELD("slope_left", "rad", "also the angle of internal friction", 0.5),                                             \
         HELD("slope_right", "rad", "also the angle of internal friction", 0.5)
-#define LOAD  FREE("force", "N/m", "load a length", 1), HELD("load_x", "m", "position of the load", 0)
+#define LOAD                                                                                                           \
+    FREE("force", "N/m", "load a length", 1), HELD("load_x", "m", "position of the load", 0),                          \
+        HELD("element", "m", "side of the elements that stresses are means over (scree_layer_mean); 0: at points", 0)
 #define THICK HELD("thickness", "m", "of the layer", 1)
 
 const scree_fit_theory scree_fit_theories[] = {

@@ -9,6 +9,10 @@ enum { PANEL = 16 }; ///< points of a panel
 #define TURNING 6.   ///< radians of the wave that a panel may hold
 #define DECAY   60.  ///< h (2 - y / H) where nothing is left
 
+/// Gauss's rule of three points on -1 to 1, weights of a mean.
+static const double gauss_at[3] = {-0.774596669241483377, 0, 0.774596669241483377};
+static const double gauss_weight[3] = {5. / 18, 8. / 18, 5. / 18};
+
 scree_stress_2d scree_flamant_stress(double force, double x, double y)
 {
     const double square = x * x + y * y;
@@ -48,11 +52,19 @@ static scree_stress_2d transform(const scree_layer *layer, double h, double dept
     return (scree_stress_2d){second - (1 - ky) * far, -value - (1 + ky) * far, -first - ky * far};
 }
 
-/// What the base adds to the half-space, times pi H / F, at x / H and y / H. Holds a little below the base, too.
-static scree_stress_2d base_adds(const scree_layer *layer, double x, double depth,
+/// What a wave keeps in a mean with the weights of a hat that falls to 0 at `side` / H from its middle.
+static double hat_keeps(double h, double side)
+{
+    const double half = 0.5 * h * side;
+    return half > 1e-4 ? pow(sin(half) / half, 2) : 1 - half * half / 3;
+}
+
+/// What the base adds to the half-space, times pi H / F, at x / H and y / H; side / H: of a hat along x, 0: at the
+/// point. Holds a little below the base, too.
+static scree_stress_2d base_adds(const scree_layer *layer, double x, double depth, double side,
                                  const gsl_integration_glfixed_table *table)
 {
-    const double end = DECAY / (2 - depth), width = fmin(WIDEST, TURNING / fabs(x));
+    const double end = DECAY / (2 - depth), width = fmin(WIDEST, TURNING / (fabs(x) + side));
     const long panels = (long)ceil(end / width);
     scree_stress_2d sum = {0};
     for (long k = 0; k < panels; k++)
@@ -61,6 +73,7 @@ static scree_stress_2d base_adds(const scree_layer *layer, double x, double dept
             (void)gsl_integration_glfixed_point(end * (double)k / (double)panels,
                                                 end * (double)(k + 1) / (double)panels, i, &h, &share, table);
             const scree_stress_2d part = transform(layer, h, depth);
+            if (side > 0) share *= hat_keeps(h, side);
             sum.xx += share * cos(h * x) * part.xx;
             sum.yy += share * cos(h * x) * part.yy;
             sum.xy += share * sin(h * x) * part.xy;
@@ -73,7 +86,7 @@ static scree_stress_2d stress_at(const scree_layer *layer, double x, double y,
 {
     scree_stress_2d stress = scree_flamant_stress(layer->force, x, y);
     if (layer->base == SCREE_LAYER_NONE) return stress;
-    const scree_stress_2d more = base_adds(layer, x / layer->thickness, y / layer->thickness, table);
+    const scree_stress_2d more = base_adds(layer, x / layer->thickness, y / layer->thickness, 0, table);
     const double unit = layer->force / (M_PI * layer->thickness);
     return (scree_stress_2d){stress.xx + unit * more.xx, stress.yy + unit * more.yy, stress.xy + unit * more.xy};
 }
@@ -93,6 +106,42 @@ scree_status scree_layer_stress(const scree_layer *layer, double x, double y, sc
     scree_status status = begin(&table, error);
     if (status) return status;
     *stress = stress_at(layer, x, y, table);
+    gsl_integration_glfixed_table_free(table);
+    return SCREE_OK;
+}
+
+/// The part of the half-space.
+static scree_stress_2d flamant_mean(const scree_layer *layer, double x, double y, double side)
+{
+    scree_stress_2d mean = {0};
+    for (int k = 0; k < 6; k++) {
+        const double across = (k < 3 ? -0.5 : 0.5) + 0.5 * gauss_at[k % 3];
+        const scree_stress_2d stress = scree_flamant_stress(layer->force, x + side * across, y);
+        const double share = gauss_weight[k % 3] * (1 - fabs(across));
+        mean.xx += share * stress.xx;
+        mean.yy += share * stress.yy;
+        mean.xy += share * stress.xy;
+    }
+    return mean;
+}
+
+scree_status scree_layer_mean(const scree_layer *layer, double x, double y, double side, scree_stress_2d *mean,
+                              scree_error *error)
+{
+    const double thickness = layer->thickness, unit = layer->force / (M_PI * thickness);
+    gsl_integration_glfixed_table *table;
+    *mean = (scree_stress_2d){0};
+    scree_status status = begin(&table, error);
+    if (status) return status;
+    for (int k = 0; k < 3; k++) {
+        const bool based = layer->base != SCREE_LAYER_NONE;
+        const double depth = fmin(y + 0.5 * side * gauss_at[k], based ? thickness : INFINITY);
+        scree_stress_2d stress = flamant_mean(layer, x, depth, side), more = {0};
+        if (based && depth >= 0) more = base_adds(layer, x / thickness, depth / thickness, side / thickness, table);
+        mean->xx += gauss_weight[k] * (stress.xx + unit * more.xx);
+        mean->yy += gauss_weight[k] * (stress.yy + unit * more.yy);
+        mean->xy += gauss_weight[k] * (stress.xy + unit * more.xy);
+    }
     gsl_integration_glfixed_table_free(table);
     return SCREE_OK;
 }

@@ -48,6 +48,13 @@ scree_stress_2d scree_flamant_stress(double force, double x, double y);
 scree_status scree_layer_stress(const scree_layer *layer, double x, double y, scree_stress_2d *stress,
                                 scree_error *error) SCREE_MUST_USE;
 
+/// Mean over a square element about a place, with the weights of a hat along x, which fall from 1 in its middle to 0 a
+/// side away, as elements of a response have them (average/response.h); no deeper than the base. Waves of the layer
+/// keep (sin(k s / 2) / (k s / 2))^2 of their size, s the side; the half-space is taken at 3 points of Gauss in each
+/// half along x, and both at 3 along y. Errors: memory.
+scree_status scree_layer_mean(const scree_layer *layer, double x, double y, double side, scree_stress_2d *mean,
+                              scree_error *error) SCREE_MUST_USE;
+
 /// Half of the width at which sigma_yy of a cut at depth y is half of that under the load [m]. Errors: memory.
 scree_status scree_layer_half_width(const scree_layer *layer, double y, double *width,
                                     scree_error *error) SCREE_MUST_USE;

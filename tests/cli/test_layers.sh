@@ -90,6 +90,26 @@ expect 0 '' "$scree" run "${layer[@]}" --threads 2 -o two
 same "$("$scree" get two state_checksum)" "$("$scree" get rough state_checksum)" "two threads"
 cmp -s two/response.csv rough/response.csv || complain "response.csv of two threads"
 
+# Mean responses of runs, over thickness and load, and theories fitted to them: one layer, an ensemble, and what cannot be.
+expect 0 'fit_layer_bonded_poisson_ratio' "$scree" measure rough --fit layer --no-figures -o one
+expect 0 'fit_flamant_information' "$scree" measure rough slow smooth --fit flamant,layer_bonded --no-figures -o three
+for run in rough slow smooth; do
+    expect 0 'volume_fraction' "$scree" measure $run --no-figures -o m-$run
+    awk -F, -v OFS=, 'NR > 1 { print $1, $2, $4 }' m-$run/response.csv >m-$run.txt
+done
+paste -d, m-rough.txt m-slow.txt m-smooth.txt | awk -F, '!/nan/ { printf "%.5g %.5g\n", $2, ($3 + $6 + $9) / 3 }' >wanted
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k == "x [1]") x = k; if ($k == "vertical [1]") v = k } next } !/nan/ { printf "%.5g %.5g\n", $x, $v }' three/response.csv >found
+same "$(cat found)" "$(cat wanted)" "mean response of three runs"
+[ "$(wc -l <found)" -gt 100 ] || complain "mean response of three runs: few places"
+# At the load at a half of the depth: response times thickness over load, from the run's own table.
+awk -F, -v h="$("$scree" get rough response_thickness)" -v f="$("$scree" get rough response_force)" '
+    NR == 1 { for (k = 1; k <= NF; k++) if ($k == "vertical [Pa]") v = k; next }
+    $1 != depth { depth = $1; if (++level == 4) printf "%.6g\n", $v * h / f }' rough/response.csv >wanted
+awk -F, 'NR > 1 && $2 == 0 && ++level == 4 { printf "%.6g\n", $4 }' m-rough/response.csv >found
+same "$(cat found)" "$(cat wanted)" "response below the load at a half"
+expect 2 '--fit: theories of piles and of layers are not' "$scree" measure rough --fit osl,layer_smooth --no-figures -o no0
+expect 2 "--fit: there is no theory 'layers'" "$scree" measure rough --fit layers --no-figures -o no0
+
 # What cannot be.
 expect 2 "selections.0: .*'top-grain' .*0.3 m outside of the sample.*0.09" "$scree" run "${layer[@]}" --set selections.top-grain.x="30 cm" -o no1
 expect 2 "measure.response_load: .*load of the kind prescribed.*'pisto'.*piston" "$scree" run "${layer[@]}" --set measure.response_load=pisto -o no2

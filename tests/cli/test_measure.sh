@@ -157,7 +157,7 @@ grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/ave
 # Theories are fitted to three piles or more: BCC is the smooth wedge, and OSL the wedge with a free core.
 expect 2 "three piles or more.*give the folders of several piles" "$scree" measure pile1 --fit bcc --no-figures -o none
 expect 2 "three piles or more" "$scree" measure pile1 pile2 --fit bcc --no-figures -o none
-expect 2 "no theory of piles 'bbc'" "$scree" measure pile1 pile2 --fit osl,bbc --no-figures -o none
+expect 2 "no theory 'bbc'" "$scree" measure pile1 pile2 --fit osl,bbc --no-figures -o none
 expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=3 --threads 1 --quiet -o pile3
 expect 0 'fit_osl_eta' "$scree" measure pile1 pile2 pile3 --fit bcc,osl,wedge -o fit
 grep -q -- '-nan' <<<"$output" && complain "a number that is none has a sign"

@@ -174,6 +174,35 @@ static void cuts_of_a_smooth_layer_carry_nothing(void **unused)
     gsl_integration_glfixed_table_free(table);
 }
 
+/// Means over elements against sums over many points of them; three points of Gauss leave some 1e-4 of the half-space
+/// at two sides from the load, and the waves of the layer nothing along x.
+static void means_over_elements(void **unused)
+{
+    (void)unused;
+    enum { N = 400 };
+    const double side = 0.2;
+    for (int base = SCREE_LAYER_SMOOTH; base <= SCREE_LAYER_NONE; base++)
+        for (int place = 0; place < 3; place++) {
+            const scree_layer layer = {.force = 1, .thickness = 1, .poisson = 0.3, .base = (scree_layer_base)base};
+            const double x = 0.4 * place, y = place == 2 ? 0.9 : 0.5;
+            scree_stress_2d mean, sum = {0};
+            scree_error error = {0};
+            double weights = 0;
+            check(scree_layer_mean(&layer, x, y, side, &mean, &error), &error);
+            for (int i = 0; i < N; i++)
+                for (int j = 0; j < 8; j++) {
+                    const double across = 2 * (i + 0.5) / N - 1, weight = 1 - fabs(across);
+                    const scree_stress_2d s = stress(layer, x + side * across, y + side * ((j + 0.5) / 8 - 0.5));
+                    sum.xx += weight * s.xx, sum.yy += weight * s.yy, sum.xy += weight * s.xy;
+                    weights += weight;
+                }
+            // Eight rows of midpoints along y leave 1e-3 themselves.
+            assert_near(mean.xx, sum.xx / weights, 2e-3);
+            assert_near(mean.yy, sum.yy / weights, 2e-3);
+            assert_near(mean.xy, sum.xy / weights, 2e-3);
+        }
+}
+
 static void half_widths(void **unused)
 {
     (void)unused;
@@ -202,6 +231,7 @@ int main(void)
         cmocka_unit_test(scales_and_ends),
         cmocka_unit_test(cuts_of_a_smooth_layer_carry_nothing),
         cmocka_unit_test(half_widths),
+        cmocka_unit_test(means_over_elements),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
