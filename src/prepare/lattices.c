@@ -9,7 +9,8 @@
 /// layers of half that distance: neighbours in a layer do not touch. cubic: n x m spheres, 2 R apart. The last row or
 /// layer may be incomplete; it fills from the left (and the front). Width auto: the number n whose height over width
 /// comes nearest to the aspect ratio (m = n where the depth is auto too); a given width or depth is lowered to the next
-/// that the lattice fills. The model has checked that radii are equal.
+/// that the lattice fills. The model has checked that radii are equal, but for centred_rectangular with a distance of
+/// the centres, where they may differ: a lattice with disorder.
 ///
 /// Periodic in a horizontal direction, no layer is shorter along it. Periodic in the last direction, the layers have to
 /// be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies have to suit
@@ -56,7 +57,7 @@ static const scree_key angled_keys[] = {
                       "where grains of a row touch, too."),
     NUMBER(angled, distance, "m", .standard = "auto", ABOVE("0 m"), TO("200 m"), .when = "method=centred_rectangular",
            .meaning = "Of the centres of grains that touch; auto: two radii. Of polygons that touch with their sides "
-                      "twice the radius of the circle inside."),
+                      "twice the radius of the circle inside. Where it is given radii may differ."),
 };
 
 /// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
@@ -218,10 +219,17 @@ static scree_status check(const scree_model *model, const scree_config_stage *st
         model->radius_min, model->radius_max, model->species_count > 1 ? "all species, with one radius," : "particles");
 }
 
+/// With a distance the lattice is that of the centres, and grains may differ: a lattice with a little disorder.
+static scree_status check_centred(const scree_model *model, const scree_config_stage *stage, scree_error *error)
+{
+    const angled *own = scree_config_own(&scree_module_centred_rectangular, "stages.prepare", stage->own);
+    return own && own->distance > 0 ? SCREE_OK : check(model, stage, error);
+}
+
 static const scree_keys first_row_keys[] = {KEYS_OF("stages.prepare", keys, config)};
 static const scree_keys centred_keys[] = {KEYS_OF("stages.prepare", angled_keys, angled)};
 
-#define LATTICE(title, text, dimension, other, function, keys_, count_, ...)                                           \
+#define LATTICE(title, text, dimension, other, function, checks, keys_, count_, ...)                                   \
     const scree_module scree_module_##title = {                                                                        \
         .name = #title,                                                                                                \
         .meaning = text,                                                                                               \
@@ -229,21 +237,21 @@ static const scree_keys centred_keys[] = {KEYS_OF("stages.prepare", angled_keys,
         .preparation = &(const scree_preparation){.periodic = true,                                                    \
                                                   .only_dimension = dimension,                                         \
                                                   .elsewhere = other,                                                  \
-                                                  .check = check,                                                      \
+                                                  .check = checks,                                                     \
                                                   .place = function,                                                   \
                                                   __VA_ARGS__},                                                        \
         .keys = keys_,                                                                                                 \
         .keys_count = count_,                                                                                          \
     }
-LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal, first_row_keys,
-        1, .lattice = SCREE_LATTICE_HEXAGONAL + 1);
-LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright, NULL, 0,
+LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal, check,
+        first_row_keys, 1, .lattice = SCREE_LATTICE_HEXAGONAL + 1);
+LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright, check, NULL, 0,
         .lattice = SCREE_LATTICE_SQUARE + 1);
 LATTICE(centred_rectangular, "centred rectangular lattice of equal discs that touch those of the rows above and below",
-        2, "body_centred", place_centred, centred_keys, 1);
+        2, "body_centred", place_centred, check_centred, centred_keys, 1);
 LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
-        "hexagonal", place_face_centred, NULL, 0, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
+        "hexagonal", place_face_centred, check, NULL, 0, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
 LATTICE(body_centred, "body-centred cubic lattice of equal spheres that touch along the diagonals of its cells", 3,
-        "hexagonal", place_body_centred, NULL, 0, .lattice = SCREE_LATTICE_BODY_CENTRED + 1);
-LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright, NULL, 0,
+        "hexagonal", place_body_centred, check, NULL, 0, .lattice = SCREE_LATTICE_BODY_CENTRED + 1);
+LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright, check, NULL, 0,
         .lattice = SCREE_LATTICE_SIMPLE_CUBIC + 1);
