@@ -15,6 +15,7 @@
 #include "run/conclusion.h"
 #include "run/response_curves.h"
 #include "run/response_load.h"
+#include "selection/selection.h"
 #include "state/body.h"
 
 #include <limits.h>
@@ -73,6 +74,21 @@ static int64_t find_load(const scree_config_load *loads, int64_t count, const ch
     return -1;
 }
 
+/// A selection that the case lets have several grains. What hangs on the sample is refused when the load begins.
+static void check_selection(scree_reader *reader, const scree_config *whole, int64_t load)
+{
+    const char *name = scree_prescribed_config_of(whole->loads, load)->selection;
+    const int64_t index = name ? scree_config_selection_find(whole->selections, whole->selection_count, name) : -1;
+    const scree_config_selection *selection = index >= 0 ? &whole->selections[index] : NULL;
+    if (!selection || selection->kind < 0 || !selection->own) return;
+    const scree_selection_kind *kind = scree_modules[selection->kind]->selection;
+    const size_t number = kind->number ? kind->number(selection->own) : 1;
+    if (number > 1)
+        scree_rule_refuse(reader, "measure.response_load", "a load on one grain, such as that of a selection `top`",
+                          "the load presses on the %zu particles of '%s': the response is that to a load on one grain",
+                          number, name);
+}
+
 static void rules(scree_reader *reader, const scree_config *whole)
 {
     const config *own = own_config(whole);
@@ -88,6 +104,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
     else if (whole->dimension != 2 || whole->boundary.periodic > 0)
         scree_rule_refuse(reader, "measure.response_load", "auto",
                           "responses are those of layers in two dimensions that do not repeat themselves");
+    else
+        check_selection(reader, whole, find_load(whole->loads, whole->load_count, own->load));
 }
 
 typedef scree_response_numbers numbers;
@@ -471,8 +489,9 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     scree_error why = {0};
     finding f = {.run = run, .n = scree_response_numbers_of(&run->s->model)};
-    // A run that has been stopped before the load acts has none.
-    if (!f.n || !scree_prescribed_of(&run->s->state)->acts[f.n->load]) return SCREE_OK;
+    // A run that has been stopped before a step under the load has none.
+    const scree_prescribed *all = scree_prescribed_of(&run->s->state);
+    if (!f.n || !all->acts[f.n->load] || !(scree_state_time(&run->s->state) > all->begun[f.n->load])) return SCREE_OK;
     scree_status status = find_all(&f, &why);
     scree_release(&f.mark);
     scree_release(&f.changes.list);

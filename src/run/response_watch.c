@@ -229,7 +229,8 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     const own *w = own_of(&run->s->state);
     const scree_response_numbers *n = scree_response_numbers_of(&run->s->model);
     (void)error;
-    if (!n || !scree_prescribed_of(&run->s->state)->acts[n->load]) return SCREE_OK;
+    const scree_prescribed *all = scree_prescribed_of(&run->s->state);
+    if (!n || !all->acts[n->load] || !(scree_state_time(&run->s->state) > all->begun[n->load])) return SCREE_OK;
     scree_summary_set_number(run->summary, "response_unchanged_force", w->unchanged);
     if (w->changed < 0) return SCREE_OK;
     scree_summary_set_number(run->summary, "response_changed_force", w->changed);

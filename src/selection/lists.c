@@ -66,6 +66,18 @@ static scree_status choose_ids(const scree_model *model, const scree_state *stat
     return SCREE_OK;
 }
 
+/// Too many for this count are many.
+static size_t number_of_ids(const void *own)
+{
+    const id_list *list = own;
+    size_t number = 0;
+    for (const scree_node *node = list->ids->first; node; node = node->next) {
+        unsigned long long range[2] = {1, 0};
+        if (read_range(node, range)) number += (size_t)(range[1] - range[0]) + 1;
+    }
+    return number;
+}
+
 static void check_ids(scree_reader *reader, const scree_config *config)
 {
     for (int64_t i = 0; i < config->selection_count; i++) {
@@ -87,7 +99,7 @@ static const scree_key id_keys[] = {
     KEY(id_list, ids, SCREE_KEY_VALUES, FROM("1"), TO("10000"),
         .meaning = "Numbers of particles, and pairs [first, last] of them."),
 };
-static const scree_selection_kind ids_kind = {.choose = choose_ids};
+static const scree_selection_kind ids_kind = {.choose = choose_ids, .number = number_of_ids};
 
 const scree_module scree_module_select_ids = {
     .name = "ids",

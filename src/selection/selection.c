@@ -11,13 +11,14 @@
 
 typedef scree_selections own;
 
-/// What acts on a selection must have something to act on.
-static scree_status refuse(const scree_model *model, int64_t index, const char *why, scree_error *error)
+/// What acts on a selection must have something to act on. key: of the selection; "": it is none of them.
+static scree_status refuse(const scree_model *model, int64_t index, const char *key, const char *why,
+                           scree_error *error)
 {
     const scree_config_selection *selection = &model->selections[index];
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "selection '%s' (%s) %s", selection->name,
                                           scree_modules[selection->kind]->name, why);
-    return scree_error_key(error, status, "selections.%lld", (long long)index);
+    return scree_error_key(error, status, "selections.%lld%s%.60s", (long long)index, key[0] ? "." : "", key);
 }
 
 /// It has no particle: where those of the sample are.
@@ -38,7 +39,7 @@ static scree_status refuse_empty(const scree_model *model, const scree_state *st
         (void)snprintf(why + length, sizeof why - length, "%s %c %.4g to %.4g m", k > 0 ? "," : "", "xyz"[k], low[k],
                        high[k]);
     }
-    return refuse(model, index, why, error);
+    return refuse(model, index, "", why, error);
 }
 
 static void enlist(scree_state *state, int64_t index, size_t row, bool belongs)
@@ -76,7 +77,8 @@ static scree_status find_kind(const scree_model *model, scree_state *state, int6
     for (size_t row = 0; row < state->count && !status; row++) enlist(state, index, row, chosen[row]);
     scree_release(&chosen);
     if (status == SCREE_ERROR_IO && error) *error = reason;
-    return status == SCREE_OK || status == SCREE_ERROR_IO ? status : refuse(model, index, reason.message, error);
+    return status == SCREE_OK || status == SCREE_ERROR_IO ? status
+                                                          : refuse(model, index, reason.field, reason.message, error);
 }
 
 static scree_status find(const scree_model *model, scree_state *state, int64_t index, scree_error *error)

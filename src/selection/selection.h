@@ -12,7 +12,7 @@
 
 struct scree_node;
 
-/// One of the two functions.
+/// One of the first two functions.
 typedef struct scree_selection_kind {
     /// Sets chosen[row], which is 0, to 1 for all bodies that belong to it; what is no grain is left out afterwards.
     /// own: its struct in the config. Errors: what makes the question meaningless; memory.
@@ -21,6 +21,8 @@ typedef struct scree_selection_kind {
     /// Made of other selections: whether a body belongs to it that is in those of `member` among those of `parts`, one
     /// bit each.
     bool (*combine)(uint32_t member, uint32_t parts);
+    /// How many bodies it has, where the case says so. NULL: that hangs on the sample.
+    size_t (*number)(const void *own);
 } scree_selection_kind;
 
 /// State of the module `selections`.

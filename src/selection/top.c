@@ -7,8 +7,11 @@
 
 #include "base/memory.h"
 #include "case/check.h"
+#include "case/wall_motion.h"
 #include "module/key_rows.h"
+#include "module/wall_shape.h"
 #include "selection/selection.h"
+#include "shape/wall_set.h"
 #include "state/body.h"
 
 #include <math.h>
@@ -58,10 +61,12 @@ static scree_status find_place(const scree_state *state, const select_top *own, 
         scree_grains_ends(state, k, end);
         place[k] = isnan(said[k]) ? 0.5 * (end[0] + end[1]) : said[k];
         if (place[k] < end[0] || place[k] > end[1])
-            return scree_error_set(error, SCREE_ERROR_INPUT,
-                                   "has its %c = %.4g m outside of the sample, which reaches from %.4g m to %.4g m: "
-                                   "choose a place in between",
-                                   "xy"[k], place[k], end[0], end[1]);
+            return scree_error_key(error,
+                                   scree_error_set(error, SCREE_ERROR_INPUT,
+                                                   "has its %c = %.4g m outside of the sample, which reaches from "
+                                                   "%.4g m to %.4g m: choose a place in between",
+                                                   "xy"[k], place[k], end[0], end[1]),
+                                   "%c", "xy"[k]);
     }
     return SCREE_OK;
 }
@@ -101,6 +106,22 @@ static scree_status choose(const scree_model *model, const scree_state *state, c
     return SCREE_OK;
 }
 
+/// The upright wall that stands and that a place lies behind, where no grain can be; NULL: there is none.
+static const scree_config_wall *wall_before(const scree_config *config, double x)
+{
+    for (int64_t k = 0; k < config->wall_count; k++) {
+        const scree_config_wall *wall = &config->walls[k];
+        const scree_wall_shape *shape = wall->shape >= 0 ? scree_modules[wall->shape]->wall : NULL;
+        scree_surface surface = {0};
+        scree_error ignored;
+        if (!shape || !shape->endless || !wall->own || !scree_wall_stands(wall)) continue;
+        if (shape->make(wall->own, (int)config->dimension, &surface, &ignored)) continue;
+        const double *normal = surface.normal[0];
+        if (normal[1] == 0 && normal[2] == 0 && normal[0] * x < surface.offset[0]) return wall;
+    }
+    return NULL;
+}
+
 static void rules(scree_reader *reader, const scree_config *config)
 {
     for (int64_t i = 0; i < config->selection_count; i++) {
@@ -110,6 +131,12 @@ static void rules(scree_reader *reader, const scree_config *config)
         (void)snprintf(path, sizeof path, "selections.%lld.y", (long long)i);
         if (config->dimension == 2 && !isnan(own->y))
             scree_rule_refuse(reader, path, "auto", "in two dimensions y points upwards: x alone says where");
+        const scree_config_wall *wall = isnan(own->x) ? NULL : wall_before(config, own->x);
+        (void)snprintf(path, sizeof path, "selections.%lld.x", (long long)i);
+        if (wall)
+            scree_rule_refuse(reader, path, "auto: the middle; or a place between the walls",
+                              "there is no grain at %.4g m: it lies behind the wall '%s'", own->x,
+                              wall->name ? wall->name : "");
         (void)snprintf(path, sizeof path, "selections.%lld.select", (long long)i);
         if (config->boundary.periodic >> (config->dimension - 1) & 1)
             scree_rule_refuse(reader, path, "band, layer", "a sample that repeats itself upwards has no top");

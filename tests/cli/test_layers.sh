@@ -111,14 +111,22 @@ expect 2 '--fit: theories of piles and of layers are not' "$scree" measure rough
 expect 2 "--fit: there is no theory 'layers'" "$scree" measure rough --fit layers --no-figures -o no0
 
 # What cannot be.
-expect 2 "selections.0: .*'top-grain' .*0.3 m outside of the sample.*0.09" "$scree" run "${layer[@]}" --set selections.top-grain.x="30 cm" -o no1
+expect 2 "selections.0.x: .*0.3 m: it lies behind the wall 'right'.*between the walls" "$scree" check layer-friction "${layer[@]:4}" --set selections.top-grain.x="30 cm"
+expect 2 "selections.0.x: .*-1e-06 m: it lies behind the wall 'left'" "$scree" check layer-friction "${layer[@]:4}" --set selections.top-grain.x="-1 um"
+expect 0 'time step' "$scree" check layer-friction "${layer[@]:4}" --set selections.top-grain.x="9 cm"
+# Where no wall says so the sample does, when the load begins, and nothing is said of a response.
+expect 2 "selections.0.x: .*'top-grain' .*0.3 m outside of the sample.*0.09" "$scree" run "${layer[@]}" --set walls.right.velocity="[1e-9, 0]" --set selections.top-grain.x="30 cm" -o no1
+grep -q 'no response' <<<"$output" && complain "a load that is refused: $output"
 expect 2 "measure.response_load: .*load of the kind prescribed.*'pisto'.*piston" "$scree" run "${layer[@]}" --set measure.response_load=pisto -o no2
 expect 2 'loads.0.until_force: .*velocity' "$scree" run "${layer[@]}" --set loads.piston.velocity_y=0 -o no3
 expect 2 'selections.0.y: .*upwards.*auto' "$scree" check layer-friction --set selections.top-grain.y="1 cm"
 sed 's/{select: top, name: top-grain}/{select: ids, name: top-grain, ids: [3]}/' <("$scree" new layer-friction) >below.yaml
 expect 2 'measure.response_load: .*particle 3, which is not at the top: particle [0-9]+ stands over it' "$scree" run below.yaml "${layer[@]:1}" -o no4
 sed 's/ids: \[3\]/ids: [58, 59]/' below.yaml >several.yaml
-expect 2 'measure.response_load: .*particle 58 and on particle 59' "$scree" run several.yaml "${layer[@]:1}" -o no5
+expect 2 "measure.response_load: .*2 particles of 'top-grain'.*one grain" "$scree" check several.yaml
+sed 's/{select: top, name: top-grain}/{select: band, name: top-grain, axis: y, measured: high, from: 0 mm, to: 6 mm}/' <("$scree" new layer-friction) >band.yaml
+expect 2 'measure.response_load: .*particle [0-9]+ and on particle [0-9]+' "$scree" run band.yaml "${layer[@]:1}" -o no5
+grep -q 'no response' <<<"$output" && complain "a load on several grains: $output"
 expect 2 'measure.response_element: an element of 0.3 m is larger than the layer, which is 0.09.* m wide and 0.0.* m high' "$scree" run "${layer[@]}" --set measure.response_element="30 cm" -o no6
 # A load that the layer does not bear: no response, and why.
 expect 0 'no response: the layer gives way.*until_force.*smaller' "$scree" run "${layer[@]}" --set loads.piston.until_force="1 MN" --set stages.press.duration="2 ms" --set stages.hold.duration="2 ms" -o yields
