@@ -5,14 +5,15 @@
 #     records.sh restore OUT RECORDS      RECORDS/SWEEP.tar.xz -> OUT/SWEEP; members that are there, even in part, stay as they are
 # A member that was put back is done for a sweep: its case and its summary.json say so. It has no snapshots, and its
 # series.csv has the columns of the curves of its sweep alone, to seven digits. Of a sweep that averages over snapshots
-# (`ensemble`) each member has those, to 24 bits (`scree export --archive`; the program is $SCREE, or build/scree).
+# (`ensemble`) each member has those, to 24 bits (`scree export --archive`; the program is $SCREE, or build/scree), and
+# its response.csv, to six digits.
 # Members that are not of the sweep any more are not kept.
 set -eu
 export LC_ALL=C
 sweeps=$(dirname "$(realpath "$0")")/../cases/sweeps
 scree=${SCREE:-$sweeps/../../build/scree}
 what=${1-} out=${2-} records=${3-}
-[ -n "$records" ] || { sed -n '2,9s/^# //p' "$0" >&2; exit 2; }
+[ -n "$records" ] || { sed -n '2,10s/^# //p' "$0" >&2; exit 2; }
 
 # Columns that the mean curves of a sweep are made of; the stage tells which rows are those of the loading.
 curve_columns() {
@@ -35,6 +36,11 @@ cut_series() {
               line = line (k > 1 ? OFS : "") value
           }
           print line }' "$1"
+}
+
+# A table with six digits.
+shorten() {
+    awk -F, 'BEGIN { OFS = "," } NR > 1 { for (k = 1; k <= NF; k++) if ($k ~ /^-?[0-9.]+(e[-+]?[0-9]+)?$/) $k = sprintf("%.6g", $k) } { print }' "$1"
 }
 
 # Folders of a sweep's members that are done.
@@ -62,6 +68,7 @@ gather() {
             stage=$(sed -nE 's/^ensemble:.*[{, ](from|at): *([a-z_]+).*/\2/p' "$sweeps/$(basename "$1").yaml")
             "$scree" export "$from" --archive "$to" ${stage:+--stage "$stage"} >/dev/null
             rm -f "$to/series.csv"
+            [ ! -e "$from/response.csv" ] || shorten "$from/response.csv" >"$to/response.csv"
         else
             mkdir -p "$to"
             cp "$from/case.yaml" "$from/summary.json" "$to/"

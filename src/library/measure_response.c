@@ -20,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { PLACES = 41, LEVELS = SCREE_RESPONSE_LEVELS, SHOWN = 4, MOST_LINES = 4 };
 #define GAP 0.05 /* thicknesses */
@@ -47,15 +48,14 @@ static double result_of(const char *directory, const char *name)
     return strtod(text, NULL);
 }
 
-static scree_status read_response(const char *directory, double thickness, reading *r, scree_error *error)
+static scree_status read_response(const char *path, const char *directory, double thickness, reading *r,
+                                  scree_error *error)
 {
-    char path[PATH_MAX];
     bool whole = true;
     *r = (reading){.thickness = result_of(directory, "response_thickness"),
                    .element = result_of(directory, "response_element")};
     r->factor = r->thickness * thickness / result_of(directory, "response_force");
-    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_RESPONSE, error);
-    if (!status) status = scree_series_read(&r->csv, path, error);
+    scree_status status = scree_series_read(&r->csv, path, error);
     if (status) return status;
     r->points = r->csv.row_count / LEVELS;
     r->depth = scree_series_get(&r->csv, "depth");
@@ -99,9 +99,12 @@ static scree_status tell_place(const reading *r, size_t level, size_t place, scr
 
 scree_status measure_response(const char *directory, double thickness, scree_average_table *table, scree_error *error)
 {
+    char path[PATH_MAX];
     reading r;
     if (!isfinite(result_of(directory, "response_force"))) return SCREE_OK;
-    scree_status status = read_response(directory, thickness, &r, error);
+    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_RESPONSE, error);
+    if (status || access(path, R_OK) != 0) return status;
+    status = read_response(path, directory, thickness, &r, error);
     for (size_t level = 0; level < LEVELS && !status; level++)
         for (size_t place = 0; place < PLACES && !status; place++) status = tell_place(&r, level, place, table, error);
     scree_series_destroy(&r.csv);
