@@ -110,6 +110,12 @@ same "$(cat found)" "$(cat wanted)" "response below the load at a half"
 expect 2 '--fit: theories of piles and of layers are not' "$scree" measure rough --fit osl,layer_smooth --no-figures -o no0
 expect 2 "--fit: there is no theory 'layers'" "$scree" measure rough --fit layers --no-figures -o no0
 
+# A lattice takes grains of several sizes where the distance of their centres is said, else it does not.
+sizes=(--set particles.distribution=uniform --set particles.radius_min="4.49955 mm" --set particles.radius_max="4.5 mm")
+expect 0 '' "$scree" run "${layer[@]}" "${sizes[@]}" --set stages.place.distance="9 mm" -o uneven
+between uneven response_order 0.999 0.9999999
+expect 2 'a lattice needs particles of one radius' "$scree" run "${layer[@]}" "${sizes[@]}" -o no0
+
 # What cannot be.
 expect 2 "selections.0.x: .*0.3 m: it lies behind the wall 'right'.*between the walls" "$scree" check layer-friction "${layer[@]:4}" --set selections.top-grain.x="30 cm"
 expect 2 "selections.0.x: .*-1e-06 m: it lies behind the wall 'left'" "$scree" check layer-friction "${layer[@]:4}" --set selections.top-grain.x="-1 um"
