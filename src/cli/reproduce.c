@@ -11,11 +11,12 @@
 /// --only names a built-in sweep.
 static scree_status check_only(const char *only, scree_error *error)
 {
-    const char *names[64];
+    const char *names[256]; // for the nearest one
     size_t count = 0;
-    for (; count < scree_sweep_builtin_count() && count < 64; count++) {
-        names[count] = scree_sweep_builtin_name(count);
-        if (!only || strcmp(only, names[count]) == 0) return SCREE_OK;
+    for (size_t i = 0; i < scree_sweep_builtin_count(); i++) {
+        const char *name = scree_sweep_builtin_name(i);
+        if (!only || strcmp(only, name) == 0) return SCREE_OK;
+        if (count < sizeof names / sizeof *names) names[count++] = name;
     }
     const char *nearest = scree_nearest(only, names, count);
     return scree_command_refuse(error, only, nearest ? nearest : "see scree list --sweeps",
