@@ -139,7 +139,7 @@ static const response_figure figures[] = {
      BY_DEPTH("vertical")},
     {"response-horizontal", "Horizontal response by depth", "horizontal response times thickness / load", 1, SHOWN,
      BY_DEPTH("horizontal")},
-    {"response-strain", "Vertical strain by depth", "vertical strain, compression positive (10^{-6})", 1e6, SHOWN,
+    {"response-strain", "Vertical strain by depth", "vertical strain, compression positive (10^{-3})", 1e3, SHOWN,
      BY_DEPTH("strain")},
     {"response-base",
      "Vertical response at the base, beside elastic bodies",
