@@ -169,9 +169,9 @@ static bool some_are_pushed(const scree_state *state, size_t begin, size_t count
            (state->torque && !are_zero((const two_words *)&state->torque[begin], count));
 }
 
-/// Whether it has fewer contacts than it had. Those that touch it in passing are not counted, but with what has come to
-/// rest beside it.
-static bool has_lost_contact(const scree_state *state, size_t row)
+/// Counts its contacts; returns whether they are fewer than it had. Those that touch it in passing are not counted, but
+/// with what has come to rest beside it.
+static bool count_contacts(const scree_state *state, size_t row)
 {
     scree_sleep *sleep = scree_sleep_of(state);
     const int64_t resting = sleep->resting[row].contacts, all = resting + state->sum[row].contacts;
@@ -198,7 +198,7 @@ static size_t mark_left(const scree_context *c, const scree_sleep_limits *limits
     size_t found = 0;
     for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
         if (sleep->asleep[row] != SCREE_ASLEEP) continue;
-        if (!has_lost_contact(state, row) && (some_are_pushed(state, row, 1) || !hangs(c, limits, row))) continue;
+        if (!count_contacts(state, row) && (some_are_pushed(state, row, 1) || !hangs(c, limits, row))) continue;
         sleep->asleep[row] = SCREE_WAKES;
         found++;
     }

@@ -27,7 +27,7 @@ typedef enum measure_product {
 } measure_product;
 
 enum { MEASURE_BANDS = 5 }; ///< bands of fewer runs are too narrow (docs/theory/averages.md), and warned of
-enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 240, MEASURE_FIT_RUNS = 3 };
+enum { MEASURE_FITS = 12, MEASURE_FIT_NUMBERS = 240, MEASURE_FIT_RUNS = 3, MEASURE_FIT_COMPONENTS = 3 };
 
 /// Theories that are fitted to the mean cuts of plane piles, what comes of it, and closures (measure_fit.c); or to the
 /// mean response of layers (measure_fit_layers.c).
@@ -142,6 +142,19 @@ scree_status measure_fit_layers(const measure_tables *each, size_t count, const 
                                 measure_found *found, scree_error *error);
 scree_status measure_fit_layers_write(const char *folder, const measure_fits *fits, scree_error *error);
 scree_status measure_fit_layers_draw(const char *folder, const measure_fits *fits, scree_error *error);
+
+/// measure_fit_numbers.c: values whose mean and standard error are wanted.
+typedef struct measure_fit_mean {
+    double sum, squares, number;
+} measure_fit_mean;
+
+void measure_fit_add(measure_fit_mean *mean, double value);
+/// error: of the mean.
+double measure_fit_mean_of(const measure_fit_mean *mean, double *error);
+/// xx, yy or xy.
+double *measure_fit_component(scree_stress_2d *stress, int component);
+/// Errors of these rows become their root mean square.
+void measure_fit_pool(measure_fit_row *row, size_t count);
 
 /// Tells a number; `second` is part of its name.
 void measure_fit_tell(measure_fits *fits, const char *first, const char *second, const char *unit, bool sampled,

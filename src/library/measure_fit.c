@@ -30,7 +30,7 @@
 #define FLANK_END 0.8
 #define DEGREE    (M_PI / 180)
 
-enum { COMPONENTS = 3, CHART_LINES = 7 };
+enum { COMPONENTS = MEASURE_FIT_COMPONENTS, CHART_LINES = 7 };
 
 /// What the search of one set of piles sees.
 typedef struct piles {
@@ -71,32 +71,10 @@ static double folded(const piles *p, size_t i, size_t cut, long j, int component
 /// Mean and standard error of the mean.
 static double mean_folded(const piles *p, size_t cut, long j, int component, double *error)
 {
-    double sum = 0, squares = 0, number = 0;
-    for (size_t i = 0; i < p->count; i++) {
-        const double value = folded(p, i, cut, j, component);
-        if (i == p->without) continue;
-        sum += value;
-        squares += value * value;
-        number++;
-    }
-    const double mean = sum / number;
-    *error = sqrt(fmax(0, squares / number - mean * mean) / (number - 1));
-    return mean;
-}
-
-static double *component_of(scree_stress_2d *stress, int component)
-{
-    return component == 0 ? &stress->xx : component == 1 ? &stress->yy : &stress->xy;
-}
-
-/// Errors along the rows of a cut become their root mean square.
-static void pool(measure_fit_row *row, size_t count)
-{
-    for (int c = 0; c < COMPONENTS && count > 0; c++) {
-        double squares = 0;
-        for (size_t k = 0; k < count; k++) squares += pow(*component_of(&row[k].point.error, c), 2);
-        for (size_t k = 0; k < count; k++) *component_of(&row[k].point.error, c) = sqrt(squares / (double)count);
-    }
+    measure_fit_mean mean = {0};
+    for (size_t i = 0; i < p->count; i++)
+        if (i != p->without) measure_fit_add(&mean, folded(p, i, cut, j, component));
+    return measure_fit_mean_of(&mean, error);
 }
 
 /// The places of all cuts that lie within the piles; those that do not overlap are to be fitted.
@@ -124,13 +102,14 @@ static size_t lay_out(const piles *p, measure_fit_row *row)
                 continue;
             *r = (measure_fit_row){.cut = cut, .point = {.x = x, .y = tip - y}};
             for (int c = 0; c < COMPONENTS; c++)
-                *component_of(&r->point.stress, c) = mean_folded(p, cut, j, c, component_of(&r->point.error, c));
+                *measure_fit_component(&r->point.stress, c) =
+                    mean_folded(p, cut, j, c, measure_fit_component(&r->point.error, c));
             r->fitted = apart && x - last_x >= 0.999 * side;
             if (r->fitted) last_x = x;
             count++;
         }
         if (apart && count > first) last_y = y;
-        pool(row + first, count - first);
+        measure_fit_pool(row + first, count - first);
     }
     return count;
 }
@@ -340,9 +319,9 @@ static scree_status draw_component(const char *folder, const char *file, const c
     double *x = number, *y = x + n, *low = y + n, *high = low + n;
     for (size_t i = 0; i < n; i++) {
         measure_fit_row r = fits->row[i];
-        const double half = *component_of(&r.point.error, component);
+        const double half = *measure_fit_component(&r.point.error, component);
         x[i] = 1e3 * r.point.x;
-        y[i] = 1e-3 * *component_of(&r.point.stress, component);
+        y[i] = 1e-3 * *measure_fit_component(&r.point.stress, component);
         low[i] = y[i] - 1e-3 * half;
         high[i] = y[i] + 1e-3 * half;
     }
@@ -352,7 +331,7 @@ static scree_status draw_component(const char *folder, const char *file, const c
         if (!fits->solved[k]) continue;
         for (size_t i = 0; i < n; i++) {
             measure_fit_row r = fits->row[i];
-            theory[i] = 1e-3 * *component_of(&r.theory[k], component);
+            theory[i] = 1e-3 * *measure_fit_component(&r.theory[k], component);
         }
         // An underscore would begin a subscript.
         (void)snprintf(name[lines], sizeof name[lines], "%s", fits->theory[k]);

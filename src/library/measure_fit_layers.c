@@ -24,6 +24,7 @@
 #define NEAR 1.5 /* elements */
 #define FAR  1.  /* thicknesses */
 
+/// The shear stress is not measured.
 enum { XX, YY, COMPONENTS, CHART_LINES = 7 };
 
 typedef struct layers {
@@ -32,38 +33,15 @@ typedef struct layers {
     size_t x, depth, element, column[COMPONENTS];
 } layers;
 
-static double *component_of(scree_stress_2d *stress, int component)
-{
-    return component == XX ? &stress->xx : &stress->yy;
-}
-
 // ---- points ------------------------------------------------------------------------------------------------------
 
 /// Mean of a value over the layers, and its standard error.
 static double mean_of(const layers *l, size_t row, size_t column, double *error)
 {
-    double sum = 0, squares = 0, number = 0;
-    for (size_t i = 0; i < l->count; i++) {
-        const double value = scree_average_table_get(l->each[i], row, column);
-        if (i == l->without) continue;
-        sum += value;
-        squares += value * value;
-        number++;
-    }
-    const double mean = sum / number;
-    *error = sqrt(fmax(0, squares / number - mean * mean) / (number - 1));
-    return mean;
-}
-
-/// Errors along a depth become their root mean square; `same`: 1 each.
-static void pool(measure_fit_row *row, size_t count, bool same)
-{
-    for (int c = 0; c < COMPONENTS && count > 0; c++) {
-        double squares = 0;
-        for (size_t k = 0; k < count; k++) squares += pow(*component_of(&row[k].point.error, c), 2);
-        const double all = same ? 1 : sqrt(squares / (double)count);
-        for (size_t k = 0; k < count; k++) *component_of(&row[k].point.error, c) = all;
-    }
+    measure_fit_mean mean = {0};
+    for (size_t i = 0; i < l->count; i++)
+        if (i != l->without) measure_fit_add(&mean, scree_average_table_get(l->each[i], row, column));
+    return measure_fit_mean_of(&mean, error);
 }
 
 /// The places of a depth that have values.
@@ -78,7 +56,8 @@ static size_t lay_out_depth(const layers *l, size_t first, size_t points, size_t
         *r = (measure_fit_row){.cut = level,
                                .point = {.x = mean_of(l, k, l->x, &unused), .y = mean_of(l, k, l->depth, &unused)}};
         for (int c = 0; c < COMPONENTS; c++)
-            *component_of(&r->point.stress, c) = mean_of(l, k, l->column[c], component_of(&r->point.error, c));
+            *measure_fit_component(&r->point.stress, c) =
+                mean_of(l, k, l->column[c], measure_fit_component(&r->point.error, c));
         if (!isfinite(r->point.stress.xx) || !isfinite(r->point.stress.yy)) continue;
         r->fitted = taken && r->point.x <= FAR * (1 + 1e-9) && r->point.x - last >= 1.999 * side;
         if (r->fitted) last = r->point.x;
@@ -101,7 +80,9 @@ static size_t lay_out(const layers *l, measure_fit_row *row)
         const double depth = mean_of(l, first, l->depth, &unused), side = mean_of(l, first, l->element, &unused);
         const bool taken = last - depth >= 0.999 * side && depth >= NEAR * side;
         const size_t added = lay_out_depth(l, first, points, level, taken, row + count);
-        pool(row + count, added, l->count < MEASURE_FIT_RUNS);
+        measure_fit_pool(row + count, added);
+        for (size_t k = count; k < count + added && l->count < MEASURE_FIT_RUNS; k++)
+            row[k].point.error = (scree_stress_2d){1, 1, 0}; // until take_error
         if (taken) last = depth;
         count += added;
     }
@@ -355,9 +336,9 @@ static scree_status draw_component(const char *folder, const char *file, const c
     double *x = number, *y = x + n, *low = y + n, *high = low + n;
     for (size_t i = 0; i < n; i++) {
         measure_fit_row r = fits->row[i];
-        const double half = *component_of(&r.point.error, component);
+        const double half = *measure_fit_component(&r.point.error, component);
         x[i] = r.point.x;
-        y[i] = *component_of(&r.point.stress, component);
+        y[i] = *measure_fit_component(&r.point.stress, component);
         low[i] = y[i] - half;
         high[i] = y[i] + half;
     }
@@ -367,7 +348,7 @@ static scree_status draw_component(const char *folder, const char *file, const c
         if (!fits->solved[k]) continue;
         for (size_t i = 0; i < n; i++) {
             measure_fit_row r = fits->row[i];
-            theory[i] = *component_of(&r.theory[k], component);
+            theory[i] = *measure_fit_component(&r.theory[k], component);
         }
         // An underscore would begin a subscript.
         (void)snprintf(name[lines], sizeof name[lines], "%s", fits->theory[k]);

@@ -1,5 +1,5 @@
-/// What fits of piles (measure_fit.c) and of layers (measure_fit_layers.c) have in common: their numbers, and the
-/// intervals of these.
+/// What fits of piles (measure_fit.c) and of layers (measure_fit_layers.c) have in common: means with their errors,
+/// their numbers, and the intervals of these.
 #include "library/measure.h"
 
 #include "io/run_directory.h"
@@ -11,6 +11,35 @@
 #include <string.h>
 
 #define DEGREE (M_PI / 180)
+
+void measure_fit_add(measure_fit_mean *mean, double value)
+{
+    mean->sum += value;
+    mean->squares += value * value;
+    mean->number++;
+}
+
+double measure_fit_mean_of(const measure_fit_mean *m, double *error)
+{
+    const double mean = m->sum / m->number;
+    *error = sqrt(fmax(0, m->squares / m->number - mean * mean) / (m->number - 1));
+    return mean;
+}
+
+double *measure_fit_component(scree_stress_2d *stress, int component)
+{
+    return component == 0 ? &stress->xx : component == 1 ? &stress->yy : &stress->xy;
+}
+
+void measure_fit_pool(measure_fit_row *row, size_t count)
+{
+    for (int c = 0; c < MEASURE_FIT_COMPONENTS && count > 0; c++) {
+        double squares = 0;
+        for (size_t k = 0; k < count; k++) squares += pow(*measure_fit_component(&row[k].point.error, c), 2);
+        for (size_t k = 0; k < count; k++)
+            *measure_fit_component(&row[k].point.error, c) = sqrt(squares / (double)count);
+    }
+}
 
 void measure_fit_tell(measure_fits *fits, const char *first, const char *second, const char *unit, bool sampled,
                       double value)

@@ -8,6 +8,7 @@
 #include "source/room.h"
 
 #include "base/vectors.h"
+#include "shape/core_pair.h"
 
 #include <math.h>
 
@@ -66,10 +67,7 @@ static void near_corners(const scree_surface *one, const scree_surface *other, d
             corner_of(one, k, c);
             corner_of(other, e, a);
             corner_of(other, e + 1, b);
-            const double x = b[0] - a[0], y = b[1] - a[1];
-            const double along = fmin(1, fmax(0, ((c[0] - a[0]) * x + (c[1] - a[1]) * y) / (x * x + y * y)));
-            foot[0] = a[0] + along * x, foot[1] = a[1] + along * y;
-            const double away = hypot(c[0] - foot[0], c[1] - foot[1]);
+            const double away = sqrt(scree_segment_closest(a, b, c, foot));
             if (away >= *nearest) continue;
             *nearest = away;
             for (int i = 0; i < 2; i++) at[i] = c[i], there[i] = foot[i];
@@ -143,16 +141,13 @@ static bool pours_on(const scree_model *model, const scree_wall_set *set, int64_
 {
     const scree_config_source *source = &model->sources[index];
     scree_source_place place;
+    scree_vector at;
     double left[2], right[2];
     scree_modules[source->kind]->source->place(source->own, &place);
     extent(&set->surface[o->wall[0]], 0, left);
     extent(&set->surface[o->wall[1]], 0, right);
-    for (int corner = 0; corner < 1 << place.edges; corner++) {
-        scree_vector at = {place.origin[0], place.origin[1], 0};
-        for (int e = 0; e < place.edges; e++)
-            if (corner >> e & 1) scree_along(at, 1, place.edge[e], at);
+    for (size_t k = 0; scree_source_probe(&place, 1, k, at); k++)
         if (at[1] <= o->middle[1] || at[0] < fmin(left[0], right[0]) || at[0] > fmax(left[1], right[1])) return false;
-    }
     return true;
 }
 

@@ -207,14 +207,6 @@ static scree_status check_extent(step *s, scree_error *error)
 
 // ---- births ------------------------------------------------------------------------------------------------------
 
-/// Number of its species, or -1.
-static int species_of(const scree_model *model, const scree_config_source *source)
-{
-    for (int s = 0; s < model->species_count && source->species; s++)
-        if (model->species[s].name && strcmp(model->species[s].name, source->species) == 0) return s;
-    return -1;
-}
-
 /// Once before the births of a step.
 static scree_status save_contacts(step *s, scree_error *error)
 {
@@ -229,7 +221,7 @@ static scree_status give_birth(step *s, int64_t index, const scree_vector place,
 {
     const scree_context *c = s->c;
     const scree_config_source *source = &c->model->sources[index];
-    scree_birth birth = {.species = species_of(c->model, source), .position = {place[0], place[1], place[2]}};
+    scree_birth birth = {.species = scree_source_species(c->model, source), .position = {place[0], place[1], place[2]}};
     uint32_t row;
     scree_source_draw_motion(c->model, source, c->state->next_id, birth.velocity, &birth.angle);
     scree_status status = save_contacts(s, error);
@@ -287,7 +279,7 @@ static trial make_trial(const step *s, int64_t index)
     const scree_config_source *source = &c->model->sources[index];
     const scree_source_state *own = &s->births->source[index];
     const uint64_t left = left_for(s, index);
-    trial t = {.species = species_of(c->model, source), .first = c->state->next_id, .count = 1};
+    trial t = {.species = scree_source_species(c->model, source), .first = c->state->next_id, .count = 1};
     t.layer = source->batch == SCREE_SOURCE_LAYER;
     t.reach = t.layer ? scree_birth_largest_reach(c->model) : scree_birth_reach(c->model, t.species, t.first);
     scree_source_place_now(c->model, source, own, scree_state_time(c->state), t.reach, &t.place);

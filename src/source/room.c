@@ -7,7 +7,7 @@
 
 #include "base/vectors.h"
 #include "prepare/birth.h"
-#include "source/pour.h"
+#include "source/source.h"
 
 #include <math.h>
 
@@ -15,13 +15,6 @@ enum {
     GRAINS = 10000, ///< that are looked at
     PARTS = 8       ///< of each edge of a source, at whose ends it is looked for room
 };
-
-static int species_of(const scree_model *model, const scree_config_source *source, uint64_t number)
-{
-    for (int s = 0; s < model->species_count && source->species; s++)
-        if (model->species[s].name && strcmp(model->species[s].name, source->species) == 0) return s;
-    return scree_model_drawn_species(model, number);
-}
 
 /// Width [m] of body `number` where it is narrowest.
 static double width_of(const scree_model *model, int species, uint64_t number)
@@ -35,16 +28,16 @@ static double width_of(const scree_model *model, int species, uint64_t number)
 scree_source_grains scree_source_grains_of(const scree_model *model, const scree_config_source *source)
 {
     scree_source_grains grains = {0, INFINITY};
+    const int own = scree_source_species(model, source);
     for (uint64_t k = 0; k < model->count && k < GRAINS; k++) {
-        const int species = species_of(model, source, k);
+        const int species = own >= 0 ? own : scree_model_drawn_species(model, k);
         grains.reach = fmax(grains.reach, scree_birth_reach(model, species, k));
         grains.narrowest = fmin(grains.narrowest, width_of(model, species, k));
     }
     return grains;
 }
 
-/// Place number `k` of those that have `parts` + 1 along each edge; false: there is none.
-static bool probe(const scree_source_place *place, size_t parts, size_t k, scree_vector at)
+bool scree_source_probe(const scree_source_place *place, size_t parts, size_t k, scree_vector at)
 {
     for (int c = 0; c < 3; c++) at[c] = place->origin[c];
     for (int e = 0; e < place->edges; e++) {
@@ -89,9 +82,9 @@ static scree_status check_largest(const scree_model *model, const scree_wall_set
     const double reach = scree_source_grains_of(model, source).reach;
     scree_vector at;
     if (scree_dot(source->motion, source->motion) > 0) return SCREE_OK;
-    for (size_t k = 0; probe(place, PARTS, k, at); k++)
+    for (size_t k = 0; scree_source_probe(place, PARTS, k, at); k++)
         if (wall_at(wall_set, at, reach, true) < 0) return SCREE_OK;
-    (void)probe(place, PARTS, 0, at);
+    (void)scree_source_probe(place, PARTS, 0, at);
     return refuse(model, wall_set, index, wall_at(wall_set, at, reach, true), at, "largest", reach, error);
 }
 
@@ -103,7 +96,7 @@ scree_status scree_source_check_room(const scree_model *model, const scree_wall_
     scree_vector at;
     if (!wall_set) return SCREE_OK;
     scree_modules[source->kind]->source->place(source->own, &place);
-    for (size_t k = 0; probe(&place, 1, k, at); k++) {
+    for (size_t k = 0; scree_source_probe(&place, 1, k, at); k++) {
         const int wall = wall_at(wall_set, at, model->radius_min, false);
         if (wall >= 0) return refuse(model, wall_set, index, wall, at, "smallest", model->radius_min, error);
     }

@@ -14,6 +14,9 @@ typedef struct scree_source_grains {
 
 scree_source_grains scree_source_grains_of(const scree_model *model, const scree_config_source *source);
 
+/// Place number `k` of those that have `parts` + 1 along each edge; false: there is none. parts 1: the ends.
+bool scree_source_probe(const scree_source_place *place, size_t parts, size_t k, scree_vector at);
+
 /// Whether source `index` has room: the ends of its place for its smallest grain, and some place of it for its largest
 /// one, beside walls that never move, unless it moves itself. wall_set: at its present pose; NULL: there are no walls.
 /// Errors: SCREE_ERROR_INPUT with the field sources.N.

@@ -16,6 +16,7 @@
 #include "prepare/birth.h"
 
 #include <math.h>
+#include <string.h>
 
 /// Room that a slot has beyond the largest grain, as a share of that.
 static const double SLACK = 0.1;
@@ -28,6 +29,13 @@ static const scree_source_kind *kind_of(const scree_config_source *source)
 static bool follows_plateau(const scree_config_source *source, scree_source_plateau *plateau)
 {
     return kind_of(source)->follows && kind_of(source)->follows(source->own, plateau);
+}
+
+int scree_source_species(const scree_model *model, const scree_config_source *source)
+{
+    for (int s = 0; s < model->species_count && source->species; s++)
+        if (model->species[s].name && strcmp(model->species[s].name, source->species) == 0) return s;
+    return -1;
 }
 
 bool scree_source_follows(const scree_config_source *source)

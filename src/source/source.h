@@ -13,6 +13,9 @@ typedef struct scree_source_slots {
     size_t count;
 } scree_source_slots;
 
+/// Number of the species that it is said to pour; -1: all.
+int scree_source_species(const scree_model *model, const scree_config_source *source);
+
 /// Whether it is told where the top of the pile is when a layer begins.
 bool scree_source_follows(const scree_config_source *source);
 

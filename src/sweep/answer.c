@@ -1,6 +1,7 @@
 /// Values realisation by realisation, their interval, the verdict, and the remarks.
 #include "sweep/answer.h"
 #include "sweep/ensemble.h"
+#include "sweep/origin.h"
 
 #include "base/memory.h"
 #include "sweep/expression.h"
@@ -313,7 +314,7 @@ static void remark_runs(const question *q, const side *s)
     remark_names(q->answer, "builds differ", &builds);
     remark_names(q->answer, "preparations differ, friction of the confinement", &frictions);
     if (sample || other) remark(q->answer, "of another %s than the case has now", sample ? "preparation" : "setting");
-    if (seeds) remark(q->answer, "seeds are not those of the sweep now");
+    if (seeds) remark(q->answer, SCREE_ORIGIN_SEEDS);
     if (hasty > 0) remark(q->answer, "not quasistatic by their own account: %zu of %zu runs", hasty, done);
     if (failed > 0) remark(q->answer, "%zu failed", failed);
 }

@@ -6,6 +6,9 @@
 #include "sweep/findings.h"
 #include "sweep/sweep.h"
 
+/// How it is told of runs with other_seed.
+#define SCREE_ORIGIN_SEEDS "seeds are not those of the sweep now"
+
 /// Fills other_seed, other_sample and other_case of all runs. The seed is not part of the case here;
 /// of a run without `case.yaml` only the seed is known. Sweeps that cannot be read are passed over.
 void scree_origin_compare(scree_findings *findings);

@@ -48,9 +48,6 @@ static void begin_row(char *text, size_t size, const scree_finding *f)
                    scree_finding_form_names[f->form]);
 }
 
-/// How the remark on seeds begins.
-#define SEEDS_NOW "seeds are not those of the sweep now"
-
 /// Sweeps of one name as they are now, in the forms that have been asked for.
 typedef struct sweeps {
     const char *name;
@@ -72,7 +69,7 @@ static void free_sweeps(sweeps *now)
 
 static void put_seeds_now(FILE *file, const scree_sweep *sweep, const char *separator)
 {
-    (void)fprintf(file, "%s" SEEDS_NOW " (from %lld on)", separator, (long long)sweep->config.seed);
+    (void)fprintf(file, "%s" SCREE_ORIGIN_SEEDS " (from %lld on)", separator, (long long)sweep->config.seed);
 }
 
 /// What the remark on the runs of a row is made of.
@@ -258,7 +255,7 @@ static void put_former_row(FILE *file, const char *line, const char *end, size_t
     const char *begin = behind_bar(line, end, CELLS), *remark = begin, *stop = end;
     const scree_sweep *sweep = sweep_now(now, form_of_line(line));
     while (remark < end && *remark == ' ') remark++;
-    const char *old = strstr(remark, SEEDS_NOW);
+    const char *old = strstr(remark, SCREE_ORIGIN_SEEDS);
     // Behind the remark are the last bar and a space.
     while (stop > remark && (stop[-1] == ' ' || (stop[-1] == '|' && stop[-2] != '\\'))) stop--;
     if (old && old < stop) stop = old;

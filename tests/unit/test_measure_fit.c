@@ -1,10 +1,9 @@
 /// Fits to ensembles of made-up piles: tables as those of measured piles with the stress of a theory give its
 /// parameters back, in the frame and with the signs of measured stresses; with noise within their intervals; an
 /// asymmetric part is that of the mirror image and goes.
-#include "testing.h"
+#include "fit_fixture.h"
 
 #include "base/random.h"
-#include "library/measure.h"
 
 #include <math.h>
 #include <string.h>
@@ -80,27 +79,6 @@ static void make(double eta, double noise, uint64_t seed, measure_tables *each, 
     check(measure_fit(each, PILES, plan, found, &error), &error);
 }
 
-static void forget(measure_tables *each, measure_found *found)
-{
-    for (int i = 0; i < PILES; i++) measure_tables_destroy(&each[i]);
-    measure_tables_destroy(&found->mean);
-    scree_release(&found->fits->row);
-    scree_release(&found->fits);
-}
-
-static measure_fit_number number_of(const measure_found *found, const char *name)
-{
-    for (size_t k = 0; k < found->fits->numbers; k++)
-        if (strcmp(found->fits->number[k].name, name) == 0) return found->fits->number[k];
-    fail_msg("there is no '%s'", name);
-    return (measure_fit_number){.value = NAN};
-}
-
-static void assert_near(double value, double expected, double tolerance)
-{
-    if (!(fabs(value - expected) <= tolerance)) fail_msg("%.12g, not %.12g", value, expected);
-}
-
 /// Without noise: the numbers of the theory; where its surface yields the expression of Mohr and Coulomb is 0, and on
 /// the axis xx / yy is eta. Search and differences leave 1e-6; errors of 0 would leave no value, so there is a little.
 static void test_exact(void **state)
@@ -138,7 +116,7 @@ static void test_exact(void **state)
     assert_true(number_of(&found, "mohr_coulomb_axis").value < -0.5);
     // Of the OSL closure mu sigma_xy is left beside the axis, whose share goes with x.
     assert_near(number_of(&found, "stress_ratio_axis").value, 0.74, 0.02);
-    forget(each, &found);
+    forget(each, PILES, &found);
 }
 
 /// With noise the interval of the jackknife has eta in about 95 % of ensembles: 19 of 20, 15 or fewer in 0.03 %.
@@ -154,7 +132,7 @@ static void test_noise(void **state)
         const measure_fit_number eta = number_of(&found, "fit_osl_eta");
         covered += eta.low < 0.74 && eta.high > 0.74;
         honest += eta.high - eta.low < 0.5;
-        forget(each, &found);
+        forget(each, PILES, &found);
     }
     assert_true(covered >= 16);
     assert_true(honest >= 18);

@@ -1,10 +1,9 @@
 /// Fits to ensembles of made-up layers: tables as those of measured responses with the stress of an elastic layer give
 /// its load and Poisson's ratio back, with noise within their intervals; the theory that made them is the best; one
 /// layer has intervals of its own; a layer without a response is left out, and one without any has no fit.
-#include "testing.h"
+#include "fit_fixture.h"
 
 #include "base/random.h"
-#include "library/measure.h"
 #include "theory/layer.h"
 
 #include <math.h>
@@ -58,27 +57,6 @@ static void make(const scree_stress_2d *truth, double noise, uint64_t seed, size
     if (count > without)
         check(scree_average_table_mean(same, count - without, &found->mean.of[MEASURE_RESPONSE], NULL, NULL, &error),
               &error);
-}
-
-static void forget(measure_tables *each, size_t count, measure_found *found)
-{
-    for (size_t i = 0; i < count; i++) measure_tables_destroy(&each[i]);
-    measure_tables_destroy(&found->mean);
-    if (found->fits) scree_release(&found->fits->row);
-    scree_release(&found->fits);
-}
-
-static measure_fit_number number_of(const measure_found *found, const char *name)
-{
-    for (size_t k = 0; k < found->fits->numbers; k++)
-        if (strcmp(found->fits->number[k].name, name) == 0) return found->fits->number[k];
-    fail_msg("there is no '%s'", name);
-    return (measure_fit_number){.value = NAN};
-}
-
-static void assert_near(double value, double expected, double tolerance)
-{
-    if (!(fabs(value - expected) <= tolerance)) fail_msg("%.12g, not %.12g", value, expected);
 }
 
 /// With next to no noise (errors of 0 would leave no value): the numbers that the layers were made with, to what search
