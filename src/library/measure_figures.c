@@ -181,7 +181,7 @@ static const map_figure map_figures[] = {
     {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth",
      "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NO_LINES},
     {MEASURE_KERNEL, "kernel-residual", "residual", "What is left of the balance of forces: round-off",
-     "|div stress + boundary + density g - resultant| over the largest density g", 1, SEQUENTIAL, NO_LINES},
+     "residual over the largest density g", 1, SEQUENTIAL, NO_LINES},
     {MEASURE_KERNEL, "kernel-bulk-modulus", "bulk_modulus", "Bulk modulus, smooth", "K (MPa)", 1e-6, SEQUENTIAL,
      NO_LINES},
     {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "shear stress (kPa)", 1e-3,

@@ -13,6 +13,7 @@ enum { MOST_LINES = 1500 };
 #define LEFT       58.0
 #define TOP        42.0
 #define BELOW      44.0
+#define MARGIN     12.0
 #define LEGEND     118.0
 #define BAR_WIDTH  11.0
 #define BAR_HEIGHT 150.0
@@ -130,7 +131,8 @@ static void draw_axes(const drawing *d, cairo_t *cairo)
     cairo_restore(cairo);
 }
 
-static void draw_bar(const drawing *d, cairo_t *cairo)
+/// Returns the y below its last line.
+static double draw_bar(const drawing *d, cairo_t *cairo)
 {
     const double x = LEFT + d->width + 22,
                  below = scree_text_paragraph(cairo, x, TOP - 2, LEGEND - 22, d->map->name, text_of(9));
@@ -160,7 +162,8 @@ static void draw_bar(const drawing *d, cairo_t *cairo)
     scree_number_text(smallest, sizeof smallest, d->limits.smallest, 3);
     scree_number_text(largest, sizeof largest, d->limits.largest, 3);
     (void)snprintf(text, sizeof text, "values from %s to %s", smallest, largest);
-    (void)scree_text_paragraph(cairo, x, bottom + 6, LEGEND - 22, text, (scree_text_style){.size = 7, .colour = quiet});
+    return scree_text_paragraph(cairo, x, bottom + 6, LEGEND - 22, text,
+                                (scree_text_style){.size = 7, .colour = quiet});
 }
 
 static void draw_page(cairo_t *cairo, void *user)
@@ -172,7 +175,18 @@ static void draw_page(cairo_t *cairo, void *user)
     draw_cells(d, cairo);
     draw_lines(d, cairo);
     draw_axes(d, cairo);
-    draw_bar(d, cairo);
+    (void)draw_bar(d, cairo);
+}
+
+/// The bar is drawn once on paper that is thrown away, to learn where it ends.
+static double bar_end(const drawing *d)
+{
+    cairo_surface_t *paper = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, NULL);
+    cairo_t *cairo = cairo_create(paper);
+    const double end = draw_bar(d, cairo);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(paper);
+    return end;
 }
 
 scree_status scree_map_draw(const char *path, const scree_map *map, scree_error *error)
@@ -188,7 +202,7 @@ scree_status scree_map_draw(const char *path, const scree_map *map, scree_error 
     d.width = wide * d.scale;
     d.height = high * d.scale;
     const scree_page page = {.width = LEFT + d.width + LEGEND + 8,
-                             .height = TOP + fmax(d.height + BELOW, BAR_HEIGHT + 74),
+                             .height = fmax(TOP + d.height + BELOW, bar_end(&d) + MARGIN),
                              .marks = map->columns * map->rows,
                              .draw = draw_page,
                              .user = &d};
