@@ -3,6 +3,7 @@
 
 #include "average/tensor.h"
 #include "integrate/integrate.h"
+#include "integrate/orientation.h"
 #include "shape/polygons.h"
 #include "shape/rounding.h"
 #include "state/periodic.h"
@@ -18,6 +19,8 @@ void scree_average_sample_destroy(scree_average_sample *sample)
     scree_release(&sample->corner);
     scree_release(&sample->own);
     scree_release(&sample->earlier);
+    scree_release(&sample->orientation);
+    scree_release(&sample->turn);
     *sample = (scree_average_sample){0};
 }
 
@@ -65,9 +68,11 @@ scree_status scree_average_sample_of_state(const scree_model *model, const scree
                                            scree_error *error)
 {
     const scree_polygons *polygons = scree_polygons_of(state);
+    const scree_quaternion *orientation = scree_orientations(state);
     *sample = (scree_average_sample){.dimension = state->dimension,
                                      .thickness = state->dimension == 2 ? model->thickness : 1,
                                      .time = scree_state_time(state),
+                                     .turned_since = state->turned_since,
                                      .directions = scree_cell(state)->directions,
                                      .bodies = state->count,
                                      .contacts = table->count,
@@ -77,6 +82,8 @@ scree_status scree_average_sample_of_state(const scree_model *model, const scree
     scree_status status = scree_allocate(&sample->grain, state->count, sizeof *sample->grain, error);
     if (!status) status = scree_allocate(&sample->contact, table->count, sizeof *sample->contact, error);
     if (!status) status = scree_allocate(&sample->corner, sample->corner_count, sizeof *sample->corner, error);
+    if (!status && orientation)
+        status = scree_allocate(&sample->orientation, state->count, sizeof *sample->orientation, error);
     if (status) {
         scree_average_sample_destroy(sample);
         return status;
@@ -85,6 +92,7 @@ scree_status scree_average_sample_of_state(const scree_model *model, const scree
     for (size_t c = 0; c < table->count; c++) fill_contact(&table->contact[c], &sample->contact[c]);
     if (sample->corner_count > 0)
         memcpy(sample->corner, polygons->corner, sample->corner_count * sizeof *sample->corner);
+    if (orientation) memcpy(sample->orientation, orientation, state->count * sizeof *sample->orientation);
     return SCREE_OK;
 }
 

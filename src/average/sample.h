@@ -14,8 +14,8 @@
 /// Grains are what is averaged over. Bodies of a membrane and bodies whose whole motion is prescribed are none: what
 /// they do to a grain comes from outside, as what a wall does.
 ///
-/// Source: R = P. Roul, PhD thesis, Magdeburg 2009, 2.6. Units: SI. Cost: linear in grains and contacts; 400 bytes a
-/// grain once it is finished.
+/// Source: R = P. Roul, PhD thesis, Magdeburg 2009, 2.6. Units: SI. Cost: linear in grains and contacts; 540 bytes a
+/// grain once it is finished, 32 more for its orientation and 32 for its turn where these are known.
 #ifndef SCREE_AVERAGE_SAMPLE_H
 #define SCREE_AVERAGE_SAMPLE_H
 
@@ -25,8 +25,7 @@ typedef struct scree_average_grain {
     scree_vector position, velocity; ///< m, m/s; z = 0 in 2D
     scree_vector resultant;          ///< N, of all that acts on it, gravity too
     scree_vector displacement;       ///< m, since an earlier instant (average/strain.h)
-    double turn;                     ///< rad, in the same time, 2D
-    bool moved;                      ///< both are known
+    bool moved;                      ///< it is known
     double radius;                   ///< m, no point of it is farther from its centre
     double volume;                   ///< m2 in 2D, m3
     double mass;                     ///< kg
@@ -72,11 +71,14 @@ typedef struct scree_average_sample {
     size_t contact_count, contacts; ///< in the same way
     double (*corner)[2];            ///< m, in the frames of the bodies
     size_t corner_count;
+    double (*orientation)[4]; ///< 3D: quaternion of each body (integrate/orientation.h); NULL: none are kept
+    double turned_since;      ///< s, time from which orientations and angles of round bodies count; NAN: unknown
 
     // ---- found by scree_average_sample_finish ----
     scree_average_own *own;   ///< a grain
     double lattice_change[9]; ///< m, of the lattice since an earlier instant
     double (*earlier)[9];     ///< N m, moments of the grains at an earlier instant (average/strain.h); NULL: unknown
+    double (*turn)[4];        ///< quaternion of what each body has turned by since then; NULL: unknown
     size_t counted;           ///< so many grains are counted
     double mean_radius;       ///< m, of these
     double mean_volume;       ///< m2, m3

@@ -32,9 +32,51 @@ static void find_displacement(const scree_average_sample *sample, const scree_av
     scree_along(grain->displacement, 1, shift, grain->displacement);
 }
 
+/// The instant from which turns of the grains count in both samples, which is in the first one zero: whether there is
+/// one. Of samples with polygons angles are how bodies lie, and always count.
+static bool count_alike(const scree_average_sample *sample, const scree_average_sample *before, bool *anew)
+{
+    *anew = false;
+    if (sample->corner_count > 0) return true;
+    if (sample->dimension == 3 && !(sample->orientation && before->orientation)) return false;
+    // Older snapshots do not say: within one stage they count alike.
+    if (isnan(sample->turned_since)) return strcmp(sample->stage, before->stage) == 0;
+    *anew = sample->turned_since == before->time && sample->time > before->time;
+    return *anew || sample->turned_since == before->turned_since;
+}
+
+/// Quaternion from the one orientation to the other, b a*; zeros stand for no rotation.
+static void quaternion_between(const double a[4], const double b[4], double turn[4])
+{
+    static const double none[4] = {1};
+    if (a[0] == 0 && scree_length(a + 1) == 0) a = none;
+    if (b[0] == 0 && scree_length(b + 1) == 0) b = none;
+    double across[3];
+    scree_cross(a + 1, b + 1, across);
+    turn[0] = b[0] * a[0] + scree_dot(b + 1, a + 1);
+    for (int k = 0; k < 3; k++) turn[k + 1] = a[0] * b[k + 1] - b[0] * a[k + 1] + across[k];
+}
+
+/// What a grain has turned by. anew: orientations were set to zero at the earlier instant.
+static void find_turn(const scree_average_sample *sample, const scree_average_sample *before, bool anew, size_t at,
+                      size_t p)
+{
+    static const double none[4] = {1};
+    double *turn = sample->turn[p];
+    if (sample->dimension == 3) {
+        quaternion_between(anew ? none : before->orientation[at], sample->orientation[p], turn);
+        return;
+    }
+    const double half = 0.5 * (sample->grain[p].angle - (anew ? 0 : before->grain[at].angle));
+    turn[0] = cos(half);
+    turn[1] = turn[2] = 0;
+    turn[3] = sin(half);
+}
+
 scree_status scree_average_move(scree_average_sample *sample, const scree_average_sample *before, scree_error *error)
 {
     size_t at = 0, moved = 0;
+    bool anew;
     double inverse[2][9];
     if (sample->directions != before->directions)
         return scree_error_set(error, SCREE_ERROR_INPUT, "one of both snapshots repeats itself in other directions");
@@ -47,13 +89,17 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
         scree_status status = scree_allocate(&sample->earlier, sample->bodies, sizeof *sample->earlier, error);
         if (status) return status;
     }
+    if (count_alike(sample, before, &anew)) {
+        scree_status status = scree_allocate(&sample->turn, sample->bodies, sizeof *sample->turn, error);
+        if (status) return status;
+    }
     // Bodies of both are in the order of their ids.
     for (size_t p = 0; p < sample->bodies; p++) {
         scree_average_grain *grain = &sample->grain[p];
         while (at < before->bodies && before->grain[at].id < grain->id) at++;
         if (at == before->bodies || before->grain[at].id != grain->id) continue;
         find_displacement(sample, before, inverse, &before->grain[at], grain);
-        grain->turn = grain->angle - before->grain[at].angle;
+        if (sample->turn) find_turn(sample, before, anew, at, p);
         grain->moved = true;
         if (before->own) memcpy(sample->earlier[p], before->own[at].moment, sizeof before->own[at].moment);
         moved += grain->counted;
@@ -82,7 +128,7 @@ static scree_core initial_core(const scree_average_sample *sample, const scree_a
                                double (*turned)[2])
 {
     if (grain->corner_count == 0) return (scree_core){.rounding = grain->radius};
-    const double angle = grain->angle - grain->turn;
+    const double *turn = sample->turn[grain->body], angle = grain->angle - 2 * atan2(turn[3], turn[0]);
     scree_polygon_turn((int)grain->corner_count, (const double(*)[2])sample->corner + grain->first_corner, cos(angle),
                        sin(angle), turned);
     return (scree_core){.corner = (const double(*)[2])turned,
@@ -182,12 +228,15 @@ typedef struct gathering {
     double place[3], moved[3]; ///< sums over the grains
 } gathering;
 
-/// Way of the surface of a grain at its lever because it turns: (Q - 1) times the initial lever = r - Q^-1 r.
-static void add_turn(const scree_average_grain *grain, const double lever[3], double sign, double sum[3])
+/// Way of the surface of a grain at its lever because it turns: (Q - 1) times the initial lever = (1 - Q^T) r =
+/// 2 v x (w r - v x r) of the turn (w, v), which keeps its digits where that is small.
+static void add_turn(const double turn[4], const double lever[3], double sign, double sum[3])
 {
-    const double c = cos(grain->turn), s = sin(grain->turn);
-    sum[0] += sign * (lever[0] - (c * lever[0] + s * lever[1]));
-    sum[1] += sign * (lever[1] - (c * lever[1] - s * lever[0]));
+    double across[3], way[3];
+    scree_cross(turn + 1, lever, across);
+    for (int k = 0; k < 3; k++) across[k] = turn[0] * lever[k] - across[k];
+    scree_cross(turn + 1, across, way);
+    scree_along(sum, 2 * sign, way, sum);
 }
 
 /// The second body of a contact may be an image that is not in the list: what its lattice vector has changed by.
@@ -214,10 +263,10 @@ static void take_contact(gathering *g, const scree_average_contact *contact)
     if (sample->directions) add_image(g->strain, contact, apart);
     scree_subtract(contact->branch, apart, branch);
     fit_add(&g->cambou, apart, branch);
-    if (sample->dimension == 3) return;
+    if (!sample->turn) return;
     for (int end = 0; end < 2; end++) {
         scree_average_lever(sample, contact, end, lever);
-        add_turn(end ? second : first, lever, end ? -1 : 1, apart);
+        add_turn(sample->turn[(end ? second : first)->body], lever, end ? -1 : 1, apart);
     }
     fit_add(&g->liao, apart, branch);
 }

@@ -7,8 +7,7 @@
 ///     cundall     u - mean u   against   G (X - mean X)              grains                        R 2.66
 ///     cambou      u_first - u_second   against   G l                 contacts of two grains        R 2.57
 ///     liao        the same of the two surfaces at the point of contact, u + (Q - 1) r with the turn Q of each grain
-///     and
-///                 its initial lever r                                contacts of two grains, 2D    R 2.73
+///                 and its initial lever r                            contacts of two grains        R 2.73
 ///     difference  mean u of the element and of those a side to the right, and above (in 3D behind, too): the one G
 ///     that
 ///                 agrees with all. R 2.76 divides by the distances of the elements; those of the mean initial places
@@ -16,8 +15,12 @@
 ///     bagi        mean of the Delaunay cells of the initial centres (K. Bagi, Mech. Mater. 22, 165, 1996), each by its
 ///                 area inside the element, in 3D those whose centres lie inside
 /// All are exact for an affine motion u = G X, of any size; a finite rotation Q gives G = Q - 1, whose symmetric part
-/// is of second order. liao sees deformations of contacts: where grains turn with the whole it finds nothing at all of
-/// a rotation, and where they do not turn it is cambou. NAN: too few grains or contacts, or all on a line. A sample
+/// is of second order. liao sees deformations of contacts: where all grains turn by Q it is Q^T (1 + G) - 1, so where
+/// they turn with the whole it finds its stretch and nothing at all of a rotation, and where they do not turn it is
+/// cambou. R 2.73 has a spin times a lever, which is this to first order in the turn; here turns may have any size, in
+/// 2D by angles, in 3D by quaternions. NAN: too few grains or contacts, or all on a line; of liao, where turns are not
+/// known: spheres without `measure.orientation`, and round grains whose rotations were set to zero between the two
+/// instants, as the begin of a loading does (`turned_since`), but not where it did so at the first of them. A sample
 /// that repeats itself takes each grain with the image that it came from: with x = H s, H the lattice, u = x - x_0 +
 /// H_0 round(s_0 - s), and images H n away have moved by (H - H_0) n more.
 #ifndef SCREE_AVERAGE_STRAIN_H
@@ -38,9 +41,9 @@ typedef struct scree_average_strain {
     double *place;         ///< m, initial centres of what the cells are made of, x 3
 } scree_average_strain;
 
-/// Displacements and turns of the grains of `sample` since `before`, by ids; where `before` is finished, their moments
-/// then, too. Errors: SCREE_ERROR_INPUT: directions in which they repeat themselves differ, or no grain is in both;
-/// memory.
+/// Displacements of the grains of `sample` since `before`, by ids, and their turns, where they are known; where
+/// `before` is finished, their moments then, too. Errors: SCREE_ERROR_INPUT: directions in which they repeat themselves
+/// differ, or no grain is in both; memory.
 scree_status scree_average_move(scree_average_sample *sample, const scree_average_sample *before,
                                 scree_error *error) SCREE_MUST_USE;
 

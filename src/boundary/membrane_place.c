@@ -59,7 +59,7 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
                         .mass = scree_model_mass(model, scree_membrane_numbers_of(model)->material, membrane->radius)};
         scree_body_make_round(state, row);
         state->species[row] = SCREE_NO_SPECIES;
-        scree_body_position(state, row, state->reference[row]);
+        scree_body_refer(state, row);
         membrane->rest[first + k][0] =
             k + 1 < count ? sqrt(spacing * spacing + (x[k + 1] - x[k]) * (x[k + 1] - x[k])) : 0;
     }

@@ -133,7 +133,7 @@ static void place_bodies(const scree_model *model, scree_state *state, double (*
                             .mass = scree_model_mass(model, scree_membrane_numbers_of(model)->material, radius)};
             state->turn[row] = (scree_turn_row){.material = scree_membrane_numbers_of(model)->material};
             state->species[row] = SCREE_NO_SPECIES;
-            scree_body_position(state, row, state->reference[row]);
+            scree_body_refer(state, row);
         }
         if (pass == 0) level_out(depth, around, count, 2 * SLOPE * radius);
     }

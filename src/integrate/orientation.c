@@ -28,7 +28,8 @@ typedef struct config {
 
 static const scree_key keys[] = {
     FLAG(config, orientation, .standard = "no",
-         .meaning = "Keep how every particle lies turned, as a quaternion, in 3D. In 2D `angle` is always kept."),
+         .meaning = "Keep how every particle lies turned, as a quaternion, in 3D; the strain of Liao needs it. In 2D "
+                    "`angle` is always kept."),
 };
 
 static const config *own_config(const scree_config *whole)
@@ -87,6 +88,11 @@ static bool is_unset(const scree_quaternion q)
     return q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0;
 }
 
+const scree_quaternion *scree_orientations(const scree_state *state)
+{
+    return (const scree_quaternion *)memory_of(state)->of;
+}
+
 void scree_orientation_forget(scree_state *state)
 {
     scree_quaternion *q = memory_of(state)->of;
@@ -106,7 +112,7 @@ static scree_status begin(const scree_context *c, scree_error *error)
 /// Lengths that a file was given by somebody else.
 static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
 {
-    const scree_quaternion *q = (const scree_quaternion *)memory_of(state)->of;
+    const scree_quaternion *q = scree_orientations(state);
     (void)model;
     for (size_t row = 0; row < state->count && q; row++) {
         double square = 0;
@@ -120,7 +126,7 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 
 static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
 {
-    const scree_quaternion *q = (const scree_quaternion *)memory_of(state)->of;
+    const scree_quaternion *q = scree_orientations(state);
     size_t next = 0;
     (void)model;
     for (uint32_t row; q && (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;)

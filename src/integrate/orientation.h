@@ -12,6 +12,9 @@ typedef double scree_quaternion[4];
 /// for no rotation.
 void scree_quaternion_turn(scree_quaternion q, const double w[3], double h);
 
+/// Those of all bodies, zeros of one that has come since the last step; NULL: none are kept.
+const scree_quaternion *scree_orientations(const scree_state *state);
+
 /// Rotations count from here. Nothing where none is kept.
 void scree_orientation_forget(scree_state *state);
 

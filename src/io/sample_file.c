@@ -151,6 +151,14 @@ static void read_outlines(const reading *r)
     scree_release(&rounding);
 }
 
+/// How bodies lie in 3D, where the run has kept it.
+static void read_orientations(const reading *r)
+{
+    size_t rows = r->sample->bodies;
+    if (r->sample->dimension == 3 && has(r, "orientation"))
+        r->sample->orientation = read_array(r, "orientation", SCREE_FIELD_DOUBLE, 4, &rows);
+}
+
 static void read_grains(const reading *r)
 {
     scree_average_sample *sample = r->sample;
@@ -173,6 +181,7 @@ static void read_grains(const reading *r)
     find_volumes(r);
     find_counted(r);
     read_outlines(r);
+    read_orientations(r);
 }
 
 /// Place of the body with this id; `count`: there is none.
@@ -273,6 +282,14 @@ static scree_status read_case(const char *directory, scree_average_sample *sampl
     return status;
 }
 
+/// Snapshots of earlier versions do not say since when grains turn.
+static void read_since(const reading *r)
+{
+    r->sample->turned_since = NAN;
+    if (!r->run->status && H5Aexists_by_name(r->run->file, r->group, "turned_since", H5P_DEFAULT) > 0)
+        scree_hdf5_get_number(r->run, r->group, "turned_since", &r->sample->turned_since);
+}
+
 /// What acted when the snapshot was written, where it says so.
 static void read_gravity(const reading *r)
 {
@@ -297,6 +314,7 @@ scree_status scree_sample_read(const char *directory, int64_t index, scree_avera
     sample->dimension = dimension == 3 ? 3 : 2;
     scree_hdf5_get_number(&run, group, "time", &sample->time);
     scree_hdf5_get_text(&run, group, "stage", sample->stage, sizeof sample->stage);
+    read_since(&r);
     read_grains(&r);
     read_contacts(&r);
     read_cell(&r);

@@ -152,6 +152,7 @@ static void write_attributes(scree_hdf5 *part, const char *group, const scree_mo
     scree_hdf5_set_text(part, group, "stage", info->stage);
     if (info->stage_name) scree_hdf5_set_text(part, group, "stage_name", info->stage_name);
     scree_hdf5_set_number(part, group, "axial_strain", info->axial_strain);
+    scree_hdf5_set_number(part, group, "turned_since", state->turned_since);
     scree_hdf5_set_integer(part, group, "grains", (uint64_t)grains);
     write_materials(part, group, model);
     scree_hdf5_set_number(part, group, "pressure", scree_pressure_now(state));
@@ -159,8 +160,8 @@ static void write_attributes(scree_hdf5 *part, const char *group, const scree_mo
     scree_hdf5_set_number(part, group, "gravity_y", model->gravity[1]);
     scree_hdf5_set_number(part, group, "gravity_z", model->gravity[2]);
     scree_hdf5_set_text(part, group, "attribute_units",
-                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, gravity_x m/s2, gravity_y "
-                        "m/s2, gravity_z m/s2, wall_triangles 1");
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, turned_since s, pressure Pa, gravity_x "
+                        "m/s2, gravity_y m/s2, gravity_z m/s2, wall_triangles 1");
 }
 
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,

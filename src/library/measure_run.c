@@ -208,6 +208,11 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
                     "force (averages of stress miss what moves the grains)",
                     directory, sample->unbalanced_ratio);
+    if (plan->from && !sample->turn)
+        measure_say(plan, "warning: %s: what grains have turned by is not known%s: there is no strain of Liao",
+                    directory,
+                    sample->dimension == 3 && !sample->orientation ? " (measure.orientation: yes keeps it)"
+                                                                   : ", since it is counted anew in between");
     if (before->own && !(before->unbalanced_ratio < MEASURE_AT_REST))
         measure_say(
             plan,

@@ -120,7 +120,7 @@ scree_status scree_birth_append(const scree_model *model, scree_state *state, co
     status = fill(model, state, *row, species_of(model, birth->species, number), number, birth, error);
     if (status) return status;
     set_moving(model, state, *row, birth);
-    scree_body_position(state, *row, state->reference[*row]);
+    scree_body_refer(state, *row);
     memcpy(state->sampled_velocity[*row], birth->velocity, sizeof(scree_vector));
     scree_births_of(state)->time[*row] = scree_state_time(state);
     note_speed(state, *row);

@@ -31,7 +31,6 @@ static void fill_rows(const scree_model *model, const scree_config_stage *stage,
         } else
             state->row[i].material = material;
         state->species[i] = packing->species[i];
-        scree_body_position(state, i, state->reference[i]);
     }
 }
 

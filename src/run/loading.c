@@ -69,6 +69,15 @@ static double present_height(scree_simulation *s)
     return ends[0] + ends[1];
 }
 
+void scree_rotations_begin(scree_state *state)
+{
+    // Of bodies that are not round the angle is how they lie.
+    if (state->dimension == 2 && state->form) return;
+    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
+    scree_orientation_forget(state);
+    state->turned_since = scree_state_time(state);
+}
+
 void scree_loading_begin(scree_simulation *s, double pressure)
 {
     scree_state *state = &s->state;
@@ -78,10 +87,8 @@ void scree_loading_begin(scree_simulation *s, double pressure)
     scree_strain_measure(state, loading->strain);
     s->boundary->fit(&context, pressure);
     if (s->boundary->mark) s->boundary->mark(&context);
-    for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
-    // Of bodies that are not round it is how they lie.
-    if (state->angle && !state->form) memset(state->angle, 0, state->count * sizeof *state->angle);
-    scree_orientation_forget(state);
+    for (size_t row = 0; row < state->count; row++) scree_body_refer(state, row);
+    scree_rotations_begin(state);
 }
 
 double scree_loading_planned(double time, double rise_time, double wave)

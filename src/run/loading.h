@@ -30,6 +30,9 @@ double scree_axial_strain(const scree_simulation *s);
 /// Strain that the loading stage imposes, as far as it has come: NAN in other stages.
 double scree_loading_strain(const scree_simulation *s);
 
+/// Angles of round bodies, and orientations in 3D, count from here.
+void scree_rotations_begin(scree_state *state);
+
 /// Begins a loading stage under `pressure` [Pa]: measures the sample, and lets displacements, rotations and strains
 /// count from here.
 void scree_loading_begin(scree_simulation *s, double pressure);

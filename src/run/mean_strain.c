@@ -3,10 +3,10 @@
 /// Displacements are linear within a cell, so the mean over the volume of all cells is an integral over their outer
 /// faces alone,
 ///     u_i,j = 1/V sum over faces (mean of u_i over the corners) n_j A,    strain = its symmetric part
-/// with the outline as the places at the begin of the stage have it (boundary.gap_limit cuts cells that reach across
-/// gaps; polygons lie in these places as they are turned now, since the angle of the begin is not kept). Tension
-/// positive. The outline is found anew for every sample from these places, so nothing is remembered.
-/// Cost: a triangulation a sample, some 10 microseconds a disc. Limits: a sample that repeats itself has no outline.
+/// with the outline as places and orientations at the begin of the stage have it (boundary.gap_limit cuts cells that
+/// reach across gaps, of polygons those between their outlines). Tension positive. The outline is found anew for every
+/// sample from these places, so nothing is remembered. Cost: a triangulation a sample, some 10 microseconds a disc.
+/// Limits: a sample that repeats itself has no outline.
 #include "case/case.h"
 #include "case/check.h"
 #include "model/model.h"
@@ -69,7 +69,7 @@ static scree_status gather(const scree_state *state, grains *g, scree_error *err
     if (!status) status = scree_allocate(&g->place, axes * g->count + 1, sizeof *g->place, error);
     if (!status) status = scree_allocate(&g->radius, g->count + 1, sizeof *g->radius, error);
     if (!status) status = scree_allocate(&g->moved, g->count + 1, sizeof *g->moved, error);
-    if (!status) status = scree_outlines_find(state, &g->outlines, error);
+    if (!status) status = scree_outlines_find_reference(state, &g->outlines, error);
     for (size_t k = 0; k < g->count && !status; k++) {
         const double *begin = state->reference[g->row[k]];
         scree_vector now;

@@ -158,7 +158,7 @@ static void press(const scree_model *model, scree_state *state, double pressure)
         state->row[row].x *= scale;
         state->row[row].y *= scale;
         if (model->dimension == 3) state->row[row].z *= scale;
-        scree_body_position(state, row, state->reference[row]);
+        scree_body_refer(state, row);
     }
     for (int w = 0; w < SCREE_WALL_COUNT; w++) scree_plates(state)[w].position *= scale;
     for (int k = 0; k < 9; k++)

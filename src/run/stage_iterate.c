@@ -210,7 +210,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     *scree_loading_of(state) = (scree_loading){.height = 0};
     if (s->boundary->rest) s->boundary->rest(&context);
     scree_case_walls(state)->moving = 0;
-    for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
+    for (size_t row = 0; row < state->count; row++) scree_body_refer(state, row);
     scree_energy_measure(&s->stage_model, state, &s->table, &energy);
     const double kinetic = energy.kinetic + energy.kinetic_rotation;
     *m = (memory){.factor = NAN, .held = m->held + kinetic};

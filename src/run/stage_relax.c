@@ -101,7 +101,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     const scree_context context = scree_step_context(s);
     *scree_loading_of(state) = (scree_loading){.height = 0};
     if (s->boundary->rest) s->boundary->rest(&context);
-    for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
+    for (size_t row = 0; row < state->count; row++) scree_body_refer(state, row);
     scree_case_walls(state)->moving = own_config(s)->walls == WALLS_MOVE;
     return state->evaluations == 0 ? check_room(s, error) : SCREE_OK;
 }

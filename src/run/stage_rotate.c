@@ -11,7 +11,6 @@
 #include "case/check.h"
 #include "comm/comm.h"
 #include "integrate/forced_spin.h"
-#include "integrate/orientation.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
 #include "module/integrator.h"
@@ -203,12 +202,6 @@ static void measure_background(const scree_simulation *s, uint64_t ticks)
                                       time * own_config(s)->spin, &scree_rotation_of(&s->state)->background);
 }
 
-static void forget_angles(scree_state *state)
-{
-    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
-    scree_orientation_forget(state);
-}
-
 /// The background is measured once.
 static bool control_whole(const scree_simulation *s)
 {
@@ -224,9 +217,9 @@ static void control(scree_simulation *s)
     uint64_t done = state->step - state->stage.first_step;
     if (done == c.rest && c.rest > 0) {
         measure_background(s, c.rest);
-        forget_angles(state);
+        scree_rotations_begin(state);
     }
-    if (done == c.ramp) forget_angles(state);
+    if (done == c.ramp) scree_rotations_begin(state);
     scree_vector spin = {0};
     double middle = ((double)done - (double)c.rest) * state->tick + 0.5 * state->step_size;
     if (done >= c.rest) spin[stage->axis] = fmin(1, middle / ((double)(c.ramp - c.rest) * state->tick)) * stage->spin;

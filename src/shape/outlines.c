@@ -23,8 +23,9 @@ static int compare(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-/// All grains, in the order of their ids.
-static scree_status gather(const scree_state *state, lying **list, size_t *count, scree_error *error)
+/// All grains, in the order of their ids. angle: of each row.
+static scree_status gather(const scree_state *state, const double *angle, lying **list, size_t *count,
+                           scree_error *error)
 {
     const scree_polygons *polygons = scree_polygons_of(state);
     size_t id = 0;
@@ -33,7 +34,7 @@ static scree_status gather(const scree_state *state, lying **list, size_t *count
     for (uint32_t row; !status && (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;)
         if (scree_body_is_grain(state, row))
             (*list)[(*count)++] = (lying){.id = state->id[row],
-                                          .angle = scree_body_angle(state, row),
+                                          .angle = angle[row],
                                           .radius = scree_body_bounding_radius(state, row),
                                           .rounding = scree_rounding_of_row(polygons, row),
                                           .of = polygons->of[row]};
@@ -74,14 +75,15 @@ static scree_core core_of(const lying *grain, double (*posed)[2])
                         .rounding = grain->rounding};
 }
 
-scree_status scree_outlines_find(const scree_state *state, scree_outlines *outlines, scree_error *error)
+/// Outlines of bodies that lie by these angles.
+static scree_status find(const scree_state *state, const double *angle_of, scree_outlines *outlines, scree_error *error)
 {
     const scree_polygons *polygons = scree_polygons_of(state);
     lying *list = NULL;
     size_t count = 0;
     *outlines = (scree_outlines){0};
     if (!polygons || !polygons->of) return SCREE_OK;
-    scree_status status = gather(state, &list, &count, error);
+    scree_status status = gather(state, angle_of, &list, &count, error);
     if (!status) status = scree_allocate(&outlines->corner, polygons->count + 1, sizeof *outlines->corner, error);
     if (!status) status = scree_allocate(&outlines->core, count + 1, sizeof *outlines->core, error);
     if (!status) status = turn(polygons, list, count, outlines->corner, error);
@@ -89,6 +91,16 @@ scree_status scree_outlines_find(const scree_state *state, scree_outlines *outli
     scree_release(&list);
     if (status) scree_outlines_destroy(outlines);
     return status;
+}
+
+scree_status scree_outlines_find(const scree_state *state, scree_outlines *outlines, scree_error *error)
+{
+    return find(state, state->angle, outlines, error);
+}
+
+scree_status scree_outlines_find_reference(const scree_state *state, scree_outlines *outlines, scree_error *error)
+{
+    return find(state, state->reference_angle, outlines, error);
 }
 
 void scree_outlines_destroy(scree_outlines *outlines)

@@ -15,6 +15,10 @@ typedef struct scree_outlines {
 /// Angles are those of the bodies now, whatever of a step has been done; the bits are those of the corners that
 /// contacts see. Errors: memory. Cost: O(corners); nothing where all bodies are round.
 scree_status scree_outlines_find(const scree_state *state, scree_outlines *outlines, scree_error *error) SCREE_MUST_USE;
+
+/// The same as the bodies lay at the start of the stage, for their places then (state->reference).
+scree_status scree_outlines_find_reference(const scree_state *state, scree_outlines *outlines,
+                                           scree_error *error) SCREE_MUST_USE;
 void scree_outlines_destroy(scree_outlines *outlines);
 
 #endif

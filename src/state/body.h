@@ -83,6 +83,13 @@ static inline double scree_body_angle(const scree_state *state, size_t row)
     return state->angle[row];
 }
 
+/// Its place, and how it lies, become those at the start: displacements are from here.
+static inline void scree_body_refer(scree_state *state, size_t row)
+{
+    scree_body_position(state, row, state->reference[row]);
+    if (state->reference_angle) state->reference_angle[row] = scree_body_angle(state, row);
+}
+
 /// Radius [m] of the smallest circle or sphere around the centre that holds the body.
 static inline double scree_body_bounding_radius(const scree_state *state, size_t row)
 {

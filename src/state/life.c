@@ -82,7 +82,10 @@ scree_status scree_state_predict(scree_state *state, scree_error *error)
 
 scree_status scree_state_begin_form(scree_state *state, scree_error *error)
 {
-    return state->form ? SCREE_OK : scree_allocate(&state->form, state->row_capacity, sizeof *state->form, error);
+    if (state->form) return SCREE_OK;
+    scree_status status = scree_allocate(&state->form, state->row_capacity, sizeof *state->form, error);
+    if (status || state->reference_angle) return status;
+    return scree_allocate(&state->reference_angle, state->body_capacity, sizeof *state->reference_angle, error);
 }
 
 scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error)

@@ -222,7 +222,9 @@ struct scree_state {
     uint8_t *species;               ///< count; SCREE_NO_SPECIES: no particle
     uint8_t *held;                  ///< count, bits of components of motion that are prescribed; NULL: none is
     double *angle;                  ///< 2D: rad, orientation; NULL in 3D
+    double turned_since;            ///< s, time from which angles of round bodies, and orientations in 3D, count
     scree_vector *reference;        ///< m, positions at the start of the loading stage
+    double *reference_angle;        ///< 2D: rad, orientations then; NULL: all bodies are round
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)

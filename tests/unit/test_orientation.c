@@ -5,6 +5,8 @@
 #include "base/fixed.h"
 #include "integrate/integrate.h"
 #include "integrate/orientation.h"
+#include "io/sample_file.h"
+#include "run/loading.h"
 
 #include <float.h>
 
@@ -229,6 +231,24 @@ static bool holds(const char *folder, const char *name, const char *text)
     return found;
 }
 
+/// What averages read of the last snapshot: rotations as the bodies have turned, from the begin of the run on.
+static void check_sample(const char *folder, bool kept)
+{
+    scree_average_sample sample;
+    scree_error error;
+    size_t count;
+    double most = 0;
+    check(scree_snapshot_count(folder, &count, &error), &error);
+    check(scree_sample_read(folder, (int64_t)count - 1, &sample, &error), &error);
+    assert_true(sample.bodies == 60 && (sample.orientation != NULL) == kept && sample.turned_since == 0);
+    for (size_t p = 0; p < sample.bodies && kept; p++) {
+        assert_true(fabs(length(sample.orientation[p]) - 1) < 1e-14);
+        most = fmax(most, 1 - fabs(sample.orientation[p][0]));
+    }
+    assert_true((most > 1e-9) == kept);
+    scree_average_sample_destroy(&sample);
+}
+
 static void files_have_it_where_it_is_kept(void **unused)
 {
     (void)unused;
@@ -243,6 +263,7 @@ static void files_have_it_where_it_is_kept(void **unused)
         check(scree_run(c, &options, &error), &error);
         assert_int_equal(holds(folder, "paraview/spheres-000002.vtp", "Name=\"orientation\" NumberOfComponents=\"4\""),
                          kept);
+        check_sample(folder, kept);
         scree_case_free(c);
     }
 }
@@ -261,6 +282,29 @@ static void programs_see_it(void **unused)
     const double(*q)[4] = (const double(*)[4])view.data;
     for (size_t row = 0; row < view.count; row++) assert_true(fabs(length(q[row]) - 1) < 1e-14);
     scree_simulation_free(s);
+    scree_case_free(c);
+}
+
+/// A loading that begins sets them to zero and says when; what follows counts from there.
+static void rotations_begin_anew(void **unused)
+{
+    (void)unused;
+    scree_case *c = case_read(GAS, NULL, 0);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    simulation_load(&s);
+    assert_true(s.state.turned_since == 0);
+    for (int k = 0; k < 400; k++) simulation_step(&s);
+    const double time = scree_state_time(&s.state);
+    double most = 0;
+    for (size_t row = 0; row < s.state.count; row++)
+        most = fmax(most, length(scree_orientations(&s.state)[row]) - fabs(scree_orientations(&s.state)[row][0]));
+    assert_true(most > 1e-9 && time > 0);
+    scree_rotations_begin(&s.state);
+    assert_true(s.state.turned_since == time);
+    for (size_t row = 0; row < s.state.count; row++)
+        assert_true(departure(scree_orientations(&s.state)[row], (const double[4]){1}) == 0);
+    scree_simulation_close(&s);
     scree_case_free(c);
 }
 
@@ -286,6 +330,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(bits_do_not_depend_on_threads_or_restarts, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(files_have_it_where_it_is_kept, make_scratch, remove_scratch),
         cmocka_unit_test(programs_see_it),
+        cmocka_unit_test(rotations_begin_anew),
         cmocka_unit_test(in_the_plane_there_is_the_angle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -134,7 +134,7 @@ static scree_simulation open_block(double gap, double turn, const char *rounding
         s.state.row[at].x = 1e-3 * (cos(turn) * x - sin(turn) * y);
         s.state.row[at].y = 1e-3 * (sin(turn) * x + cos(turn) * y);
         s.state.angle[at] = turn;
-        scree_body_position(&s.state, at, s.state.reference[at]);
+        scree_body_refer(&s.state, at);
     }
     return s;
 }
@@ -215,6 +215,10 @@ static void check_block(double gap, double turn, const char *rounding, unsigned 
     const unsigned found = boundary_of(&s, &area);
     if (found != (rim | inner)) fail_msg("gap %g, turn %g: %x, not %x", gap, turn, found, rim | inner);
     assert_int_equal(strained_by(&s), found);
+    // What they have turned by since then changes nothing of where they began.
+    for (size_t row = 0; row < GRAINS; row++) s.state.angle[row] += 0.5 * M_PI;
+    assert_int_equal(strained_by(&s), found);
+    for (size_t row = 0; row < GRAINS; row++) s.state.angle[row] -= 0.5 * M_PI;
     assert_true(fabs(area_of_cells(&s) / area - 1) < 1e-12);
     if (turn == 0) assert_int_equal(sides_of(&s), found);
     scree_simulation_close(&s);
