@@ -34,11 +34,18 @@ const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
     {"horizontal_pressure_ratio", "1", "the same of the horizontal pressure"},
     {"shear_stress_ratio", "1", "the same of the shear stress"},
     {"coordination_ratio", "1", "mean coordination number over that in the earlier state"},
+    {"coordination_elements_ratio", "1", "mean over the elements of their coordination numbers, likewise"},
+    {"coordination_elements_spread", "1", "standard deviation of these over the elements, over their mean"},
+    {"coordination_elements_spread_ratio", "1", "the same over that in the earlier state"},
     {"mobilised_ratio", "1", "sum of tangential over sum of normal forces, over that in the earlier state"},
     {"displacement_bottom", "m", "mean displacement of the grains in the lowest third of the height"},
     {"displacement_top", "m", "the same in the highest third"},
     {"strain_mean", "1", "mean vertical strain along the lowest cut (Cundall), extension positive"},
     {"strain_dip", "1", "of the vertical strain along it: 1 - that on the axis over the largest one"},
+    {"strain_dip_cambou", "1", "the same of the strain of Cambou"},
+    {"strain_dip_liao", "1", "the same of the strain of Liao"},
+    {"strain_dip_difference", "1", "the same of the difference quotient, within half of the half width"},
+    {"strain_dip_bagi", "1", "the same of the mean of the Delaunay cells"},
     {"strain_cambou_deviation", "1",
      "strain of Cambou less that of Cundall over the latter, root mean squares along it"},
     {"strain_liao_deviation", "1", "the same of the strain of Liao"},
@@ -228,6 +235,22 @@ static double coordination_of(const scree_average_sample *sample)
     return contacts / (double)sample->counted;
 }
 
+/// Mean of the coordination numbers of the elements; *spread: their standard deviation over it.
+static double coordination_of_elements(const scree_average_table *table, double *spread)
+{
+    double sum = 0, squares = 0, count = 0;
+    for (size_t row = 0; row < table->rows; row++) {
+        const double value = get(table, row, "coordination");
+        if (!is_of(table, row, ALL) || !isfinite(value)) continue;
+        sum += value;
+        squares += value * value;
+        count++;
+    }
+    const double mean = sum / count;
+    *spread = sqrt(fmax(0, squares / count - mean * mean)) / mean;
+    return mean;
+}
+
 static double mobilised(const scree_average_sample *sample)
 {
     double tangential = 0, normal = 0;
@@ -240,12 +263,16 @@ static double mobilised(const scree_average_sample *sample)
 
 static void find_stresses(finding *f)
 {
-    double largest[3];
+    double largest[3], spread, earlier;
     give(f, scree_length(f->after->gravity) / scree_length(f->before->gravity));
     give(f, f->before->unbalanced_ratio);
     for (int k = 0; k < 3; k++) give(f, largest[k] = most(f, f->cuts, k));
     for (int k = 0; k < 3; k++) give(f, largest[k] / most(f, f->earlier, k));
     give(f, coordination_of(f->after) / coordination_of(f->before));
+    const double now = coordination_of_elements(f->cuts, &spread);
+    give(f, now / coordination_of_elements(f->earlier, &earlier));
+    give(f, spread);
+    give(f, spread / earlier);
     give(f, mobilised(f->after) / mobilised(f->before));
 }
 
@@ -288,21 +315,38 @@ static double deviation(const finding *f, int definition, region where)
     return sqrt(off / size);
 }
 
-static scree_status find_strains(finding *f, scree_error *error)
+/// The dip of the vertical strain of a definition along the lowest cut, which `sign` makes a pressure.
+static scree_status find_strain_dip(finding *f, int definition, double sign, scree_error *error)
 {
-    double profile[SCREE_INCREMENT_POINTS], sum = 0, count = 0;
+    const double reach = definition == SCREE_AVERAGE_DIFFERENCE ? FLANK : 1;
+    double profile[SCREE_INCREMENT_POINTS];
     scree_average_dip dip;
     for (size_t k = 0; k < SCREE_INCREMENT_POINTS; k++) {
-        profile[k] = is_of(f->cuts, k, LOWEST) ? vertical_strain(f, k, SCREE_AVERAGE_CUNDALL) : NAN;
-        sum += isfinite(profile[k]) ? profile[k] : 0;
-        count += isfinite(profile[k]);
+        const bool taken = is_of(f->cuts, k, LOWEST) && fabs(get(f->cuts, k, "place")) <= reach;
+        profile[k] = taken ? sign * vertical_strain(f, k, definition) : NAN;
     }
-    for (size_t k = 0; k < SCREE_INCREMENT_POINTS; k++) profile[k] *= sum < 0 ? -1 : 1;
     scree_status status = scree_average_dip_find(profile, 1, SCREE_INCREMENT_POINTS, &dip, error);
+    // Of a strain that is not known there is none, and not one that is all of it.
+    give(f, status || !isfinite(profile[SCREE_INCREMENT_POINTS / 2]) ? NAN : dip.dip);
+    return status;
+}
+
+static scree_status find_strains(finding *f, scree_error *error)
+{
+    static const int order[] = {SCREE_AVERAGE_CUNDALL, SCREE_AVERAGE_CAMBOU, SCREE_AVERAGE_LIAO,
+                                SCREE_AVERAGE_DIFFERENCE, SCREE_AVERAGE_BAGI};
+    double sum = 0, count = 0;
+    for (size_t k = 0; k < SCREE_INCREMENT_POINTS; k++) {
+        const double strain = is_of(f->cuts, k, LOWEST) ? vertical_strain(f, k, SCREE_AVERAGE_CUNDALL) : NAN;
+        sum += isfinite(strain) ? strain : 0;
+        count += isfinite(strain);
+    }
     give(f, displacement_of(f->after, 0, 1.0 / 3));
     give(f, displacement_of(f->after, 2.0 / 3, 1));
     give(f, sum / count);
-    give(f, status ? NAN : dip.dip);
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < sizeof order / sizeof *order && !status; k++)
+        status = find_strain_dip(f, order[k], sum < 0 ? -1 : 1, error);
     give(f, deviation(f, SCREE_AVERAGE_CAMBOU, LOWEST));
     give(f, deviation(f, SCREE_AVERAGE_LIAO, LOWEST));
     give(f, deviation(f, SCREE_AVERAGE_BAGI, LOWEST));

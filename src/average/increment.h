@@ -9,6 +9,11 @@
 /// their parts inside the sample (`_inside`): whole elements that reach out of the surface hold less stress and less
 /// fabric alike, so that a part of the first is geometry.
 ///
+/// Dips of strains compare the axis with all elements of the lowest cut; that of the difference quotient with its inner
+/// half alone (FLANK), since near the surface, where the neighbours of an element reach out of the pile, R calls what
+/// it gives artefacts (3.6.1). The distribution of the coordination number is that over the elements of all cuts, each
+/// with the mean of the grains whose centres lie in it (R 3.5, figure 3.24).
+///
 /// Source: P. Roul, PhD thesis, Magdeburg 2009, 2.6.2, 3.6 - 3.10. Units: SI. Cost: that of two tables of cuts.
 #ifndef SCREE_AVERAGE_INCREMENT_H
 #define SCREE_AVERAGE_INCREMENT_H
@@ -23,7 +28,7 @@ enum {
     SCREE_INCREMENT_SHARE = 10   ///< in small samples the whole over this
 };
 
-enum { SCREE_INCREMENT_ROWS = 59 };
+enum { SCREE_INCREMENT_ROWS = 66 };
 extern const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS];
 
 /// Finds all of them. Both samples are finished, and the grains of `after` have moved from where they were in `before`

@@ -12,6 +12,8 @@
 enum { BANDS = 60000 };   ///< numbers of a table that has bands; each is resampled
 #define LEAST_INSIDE 0.5  /* of an element, where strains are looked at: outside of the surface there are none */
 #define SIGNIFICANT  0.05 /* largest p of a dip that is one */
+/* over the half width: beyond, difference quotients are what R calls artefacts (average/increment.h) */
+#define DIFFERENCE_REACH 0.5
 
 // ---- ensembles ---------------------------------------------------------------------------------------------------
 
@@ -21,7 +23,7 @@ static void found_destroy(measure_found *found)
     measure_tables_destroy(&found->low);
     measure_tables_destroy(&found->high);
     scree_release(&found->dip);
-    scree_release(&found->strain_dip);
+    for (int k = 0; k < SCREE_AVERAGE_STRAINS; k++) scree_release(&found->strain_dip[k]);
     if (found->fits) scree_release(&found->fits->row);
     scree_release(&found->fits);
 }
@@ -85,64 +87,108 @@ static scree_status find_scatter(const measure_tables *each, size_t count, measu
     return status;
 }
 
-/// Profiles of a column of a cut, run by run, over the elements of which at least a given part lies in the sample.
-/// Those of the pressure of an ensemble are scaled by what a pile without voids of its bulk density and height would
-/// bear, where there is gravity, so that piles of other sizes weigh alike.
-static void take_profiles(const measure_tables *each, size_t count, const measure_plan *plan, size_t cut, size_t column,
-                          double least, double sign, double *profile)
+/// What is looked at along cuts.
+typedef struct profiles {
+    size_t column;
+    double least; ///< so much of an element has to lie in the sample
+    double reach; ///< so far from the axis, over the half width
+    double sign;
+} profiles;
+
+/// Profiles of a column of a cut, run by run. Those of the pressure of an ensemble are scaled by what a pile without
+/// voids of its bulk density and height would bear, where there is gravity, so that piles of other sizes weigh alike.
+static void take_profiles(const measure_tables *each, size_t count, const measure_plan *plan, size_t cut,
+                          const profiles *of, double *profile)
 {
     const size_t points = plan->average.points;
     for (size_t i = 0; i < count; i++) {
         const scree_average_table *cuts = &each[i].of[MEASURE_CUTS];
-        const size_t inside = scree_average_table_find(cuts, "inside");
+        const size_t inside = scree_average_table_find(cuts, "inside"), place = scree_average_table_find(cuts, "place");
         for (size_t j = 0; j < points; j++) {
             const size_t row = cut * points + j;
-            const bool taken = scree_average_table_get(cuts, row, inside) >= least;
-            profile[i * points + j] = taken ? sign * scree_average_table_get(cuts, row, column) : NAN;
+            const bool taken = scree_average_table_get(cuts, row, inside) >= of->least &&
+                               fabs(scree_average_table_get(cuts, row, place)) <= of->reach;
+            profile[i * points + j] = taken ? of->sign * scree_average_table_get(cuts, row, of->column) : NAN;
         }
     }
 }
 
 /// Dips of a column, cut by cut.
-static scree_status find_dips_of(const measure_tables *each, size_t count, const measure_plan *plan, size_t column,
-                                 double least, double sign, scree_average_dip **dip, scree_error *error)
+static scree_status find_dips_of(const measure_tables *each, size_t count, const measure_plan *plan, const profiles *of,
+                                 scree_average_dip **dip, scree_error *error)
 {
     double *profile;
     scree_status status = scree_allocate(&profile, count * plan->average.points, sizeof *profile, error);
     if (!status) status = scree_allocate(dip, plan->average.cuts, sizeof **dip, error);
     for (size_t k = 0; k < plan->average.cuts && !status; k++) {
-        take_profiles(each, count, plan, k, column, least, sign, profile);
+        take_profiles(each, count, plan, k, of, profile);
         status = scree_average_dip_find(profile, count, plan->average.points, &(*dip)[k], error);
     }
     scree_release(&profile);
     return status;
 }
 
-/// Of the vertical strain; where gravity falls that is an extension.
+/// Of the vertical strain by each definition; where gravity falls that is an extension. What is known of the axis of no
+/// run has none.
 static scree_status find_strain_dips(const measure_tables *each, size_t count, const measure_plan *plan,
                                      measure_found *found, scree_error *error)
 {
     const scree_average_table *values = &found->mean.of[MEASURE_VALUES], *cuts = &each[0].of[MEASURE_CUTS];
     const size_t mean = scree_average_table_find(values, "strain_mean");
-    size_t column = scree_average_table_find(cuts, "cundall_zz");
-    if (column == SIZE_MAX) column = scree_average_table_find(cuts, "cundall_yy");
-    if (mean == SIZE_MAX || column == SIZE_MAX) return SCREE_OK;
-    return find_dips_of(each, count, plan, column, LEAST_INSIDE, values->value[mean] < 0 ? -1 : 1, &found->strain_dip,
-                        error);
+    scree_status status = SCREE_OK;
+    for (int k = 0; k < SCREE_AVERAGE_STRAINS && mean != SIZE_MAX && !status; k++) {
+        char name[32];
+        profiles of = {.least = LEAST_INSIDE,
+                       .reach = k == SCREE_AVERAGE_DIFFERENCE ? DIFFERENCE_REACH : 1,
+                       .sign = values->value[mean] < 0 ? -1 : 1};
+        (void)snprintf(name, sizeof name, "%s_zz", scree_average_strain_names[k]);
+        of.column = scree_average_table_find(cuts, name);
+        (void)snprintf(name, sizeof name, "%s_yy", scree_average_strain_names[k]);
+        if (of.column == SIZE_MAX) of.column = scree_average_table_find(cuts, name);
+        if (of.column == SIZE_MAX ||
+            isnan(scree_average_table_get(&found->mean.of[MEASURE_CUTS], plan->average.points / 2, of.column)))
+            continue;
+        status = find_dips_of(each, count, plan, &of, &found->strain_dip[k], error);
+    }
+    return status;
+}
+
+/// Where the pressure of the lowest cut is least and largest, from the apex that plane piles have.
+static scree_status find_minimum(const measure_tables *each, size_t count, const measure_plan *plan, const profiles *of,
+                                 measure_found *found, scree_error *error)
+{
+    const size_t points = plan->average.points;
+    double *profile = NULL, *apex = NULL;
+    bool plane = true;
+    scree_status status = scree_allocate(&profile, count * points, sizeof *profile, error);
+    if (!status) status = scree_allocate(&apex, count, sizeof *apex, error);
+    for (size_t i = 0; i < count && !status; i++) {
+        const scree_average_table *values = &each[i].of[MEASURE_VALUES];
+        const size_t at = scree_average_table_find(values, "triangle_apex"),
+                     half = scree_average_table_find(values, "half_width");
+        apex[i] = at == SIZE_MAX || half == SIZE_MAX ? (double)NAN : values->value[at] / values->value[half];
+        plane = plane && isfinite(apex[i]);
+    }
+    if (!status) take_profiles(each, count, plan, 0, of, profile);
+    if (!status && plane) status = scree_average_minimum_find(profile, apex, count, points, &found->minimum, error);
+    scree_release(&profile);
+    scree_release(&apex);
+    return status;
 }
 
 static scree_status find_dips(const measure_tables *each, size_t count, const measure_plan *plan, measure_found *found,
                               scree_error *error)
 {
     const scree_average_table *cuts = &each[0].of[MEASURE_CUTS];
-    const size_t cut_count = plan->average.cuts, column = scree_average_table_find(cuts, "vertical_pressure_scaled");
+    const size_t cut_count = plan->average.cuts;
+    const profiles of = {.column = scree_average_table_find(cuts, "vertical_pressure_scaled"), .reach = 1, .sign = 1};
     scree_status status = find_strain_dips(each, count, plan, found, error);
-    if (status || column == SIZE_MAX || isnan(scree_average_table_get(cuts, 0, column))) return status;
-    status = find_dips_of(each, count, plan, column, 0, 1, &found->dip, error);
+    if (status || of.column == SIZE_MAX || isnan(scree_average_table_get(cuts, 0, of.column))) return status;
+    status = find_dips_of(each, count, plan, &of, &found->dip, error);
     found->dip_height = count > 1 ? 0 : NAN;
     for (size_t k = 0; k < cut_count && !status && found->dip[k].p <= SIGNIFICANT; k++)
         found->dip_height = plan->average.height[k];
-    return status;
+    return status ? status : find_minimum(each, count, plan, &of, found, error);
 }
 
 // ---- what is printed ---------------------------------------------------------------------------------------------
@@ -160,6 +206,14 @@ static void say_values(const measure_plan *plan, const measure_found *found)
     }
 }
 
+static void say_between(const measure_plan *plan, const char *name, const scree_average_between *of)
+{
+    if (isnan(of->low))
+        measure_say(plan, "%-26s %-12.6g 1", name, of->value);
+    else
+        measure_say(plan, "%-26s %-12.6g 1     (%.6g to %.6g)", name, of->value, of->low, of->high);
+}
+
 static void say_dips(const measure_plan *plan, const measure_found *found)
 {
     if (!found->dip) return;
@@ -168,6 +222,11 @@ static void say_dips(const measure_plan *plan, const measure_found *found)
         const scree_average_dip *dip = &found->dip[k];
         measure_say(plan, "%-8.3g %-10.4f %8.4f to %-10.4f %-10.4f %-8.3g %.3g", plan->average.height[k], dip->dip,
                     dip->low, dip->high, dip->checked, dip->p, dip->place);
+    }
+    if (isfinite(found->minimum.depth.value)) {
+        say_between(plan, "pressure_minimum_place", &found->minimum.place);
+        say_between(plan, "pressure_minimum_depth", &found->minimum.depth);
+        say_between(plan, "pressure_maximum_place", &found->minimum.highest);
     }
     if (found->runs == 1) measure_say(plan, "one run has no interval and no p: give the folders of several piles");
 }
@@ -268,7 +327,8 @@ scree_status scree_measure(const char *const *runs, size_t count, const scree_me
     char folder[PATH_MAX];
     measure_plan plan;
     measure_tables *each = NULL;
-    measure_found found = {.runs = count, .dip_height = NAN};
+    const scree_average_between none = {NAN, NAN, NAN};
+    measure_found found = {.runs = count, .dip_height = NAN, .minimum = {none, none, none, NAN}};
     if (count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no run is named");
     scree_status status = measure_plan_read(options, &plan, error);
     if (!status) status = check_kinds(runs, count, options, error);

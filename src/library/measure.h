@@ -5,6 +5,7 @@
 #include "average/cuts.h"
 #include "average/dip.h"
 #include "average/kernel.h"
+#include "average/minimum.h"
 #include "average/sizes.h"
 #include "io/sample_file.h"
 #include "theory/fit.h"
@@ -91,10 +92,12 @@ typedef struct measure_tables {
 typedef struct measure_found {
     size_t runs;
     measure_tables mean, low, high;
-    scree_average_dip *dip;                  ///< a cut; NULL: no stress along cuts
-    scree_average_dip *strain_dip;           ///< the same of the vertical strain; NULL: no elastic constants
-    measure_fits *fits;                      ///< NULL: none was asked for
-    size_t responses;                        ///< runs that have a response to a load
+    scree_average_dip *dip;                               ///< a cut; NULL: no stress along cuts
+    scree_average_dip *strain_dip[SCREE_AVERAGE_STRAINS]; ///< the same of the vertical strain by each definition; NULL:
+                                                          ///< no elastic constants
+    scree_average_minimum minimum; ///< of the pressure of the lowest cut, from the apex; NAN: of no plane pile
+    measure_fits *fits;            ///< NULL: none was asked for
+    size_t responses;              ///< runs that have a response to a load
     double exponent[SCREE_AVERAGE_SIZED][3]; ///< of the scatter of the tensors against the size, with its interval
     double dip_height;                       ///< 1, relative height above which no dip is significant; NAN with one run
 } measure_found;

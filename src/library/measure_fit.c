@@ -13,7 +13,8 @@
 /// mass, feet and centre of mass, whose slopes the wedges take; runs have to be built alike, to the same side.
 ///
 /// mohr_coulomb: ((xx - yy)^2 + 4 xy^2) / ((xx + yy)^2 sin^2 slope) - 1 (R 4.2): 0 where the pile yields, below where
-/// it does not. The axis is what lies within AXIS of the half width, the flank between FLANK and FLANK_END.
+/// it does not. The axis is what lies within AXIS of the half width, the flank between FLANK and FLANK_END; of the
+/// lowest cut of the half width of the base, of those above it, `_above`, of that which the pile has at their height.
 #include "library/measure.h"
 
 #include "io/run_directory.h"
@@ -192,6 +193,26 @@ static double mohr_coulomb(const measure_fits *fits, const scree_fit_point *poin
     return (pow(s->xx - s->yy, 2) + 4 * s->xy * s->xy) / pow((s->xx + s->yy) * sin(slope), 2) - 1;
 }
 
+/// Distance from the axis over the half width of the triangle at that height, of its side.
+static double place_above(const measure_fits *fits, const scree_fit_point *point)
+{
+    return fabs(point->x) * tan(fits->slope[point->x < 0 ? 0 : 1]) / point->y;
+}
+
+/// Mean over all cuts above the lowest one between two such distances.
+static void tell_yield_above(measure_fits *fits, const char *where, double from, double to)
+{
+    double yielding = 0, number = 0;
+    for (size_t k = 0; k < fits->rows; k++) {
+        const measure_fit_row *r = &fits->row[k];
+        const double place = place_above(fits, &r->point);
+        if (r->cut == 0 || place < from || place > to) continue;
+        yielding += mohr_coulomb(fits, &r->point);
+        number++;
+    }
+    measure_fit_tell(fits, "mohr_coulomb", where, "1", true, number > 0 ? yielding / number : NAN);
+}
+
 /// Means over the lowest cut between two distances from the axis, over the half width of the triangle.
 static void tell_closure(measure_fits *fits, const char *where, double from, double to, double half)
 {
@@ -228,6 +249,8 @@ static scree_status find_numbers(measure_fits *fits, void *user, size_t without,
     const double half = mean_value(p, "triangle_height") * 0.5 * (1 / tan(fits->slope[0]) + 1 / tan(fits->slope[1]));
     tell_closure(fits, "axis", 0, AXIS, half);
     tell_closure(fits, "flank", FLANK, FLANK_END, half);
+    tell_yield_above(fits, "axis_above", 0, AXIS);
+    tell_yield_above(fits, "flank_above", FLANK, FLANK_END);
     return status;
 }
 

@@ -121,6 +121,22 @@ static void set_dip(scree_summary *summary, const char *name, const scree_averag
     set_part(summary, name, "_place", dip->place);
 }
 
+static void set_between(scree_summary *summary, const char *name, const scree_average_between *of, bool interval)
+{
+    set_part(summary, name, "", of->value);
+    if (!interval) return;
+    set_part(summary, name, "_low", of->low);
+    set_part(summary, name, "_high", of->high);
+}
+
+/// That of Cundall has no name behind it: it is the one that constants are made of.
+static const char *strain_dip_name(int definition, const char *first, const char *mark, char *name, size_t size)
+{
+    const bool usual = definition == SCREE_AVERAGE_CUNDALL;
+    (void)snprintf(name, size, "%s%s%s", first, usual ? "" : mark, usual ? "" : scree_average_strain_names[definition]);
+    return name;
+}
+
 static void set_values(scree_summary *summary, const measure_found *found)
 {
     const scree_average_table *mean = &found->mean.of[MEASURE_VALUES];
@@ -149,11 +165,18 @@ static void set_values(scree_summary *summary, const measure_found *found)
         set_part(summary, name, "_low", found->exponent[k][1]);
         set_part(summary, name, "_high", found->exponent[k][2]);
     }
-    // One sample has that of strains among its values.
-    set_dip(summary, "strain_dip", found->strain_dip, found->runs > 1);
+    // One sample has those of strains among its values.
+    for (int k = 0; k < SCREE_AVERAGE_STRAINS; k++)
+        set_dip(summary, strain_dip_name(k, "strain_dip", "_", name, sizeof name), found->strain_dip[k],
+                found->runs > 1);
     set_dip(summary, "dip", found->dip, true);
     if (!found->dip) return;
     scree_summary_set_number(summary, "dip_height", found->dip_height);
+    if (isnan(found->minimum.depth.value)) return;
+    set_between(summary, "pressure_minimum_place", &found->minimum.place, found->runs > 1);
+    set_between(summary, "pressure_minimum_depth", &found->minimum.depth, found->runs > 1);
+    set_between(summary, "pressure_maximum_place", &found->minimum.highest, found->runs > 1);
+    if (found->runs > 1) scree_summary_set_number(summary, "pressure_minimum_share", found->minimum.share);
 }
 
 static scree_status write_summary(const char *folder, const measure_found *found, scree_error *error)
@@ -174,7 +197,11 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
     scree_status status = SCREE_OK;
     for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) status = write_table(folder, found, k, error);
     if (!status) status = write_dips(folder, "dips.csv", plan, found->dip, error);
-    if (!status) status = write_dips(folder, "strain-dips.csv", plan, found->strain_dip, error);
+    for (int k = 0; k < SCREE_AVERAGE_STRAINS && !status; k++) {
+        char name[48], file[64];
+        (void)snprintf(file, sizeof file, "%s.csv", strain_dip_name(k, "strain-dips", "-", name, sizeof name));
+        status = write_dips(folder, file, plan, found->strain_dip[k], error);
+    }
     if (!status && found->fits) status = measure_fit_write_numbers(folder, found->fits, error);
     if (!status && found->fits)
         status = found->fits->layers ? measure_fit_layers_write(folder, found->fits, error)

@@ -48,6 +48,20 @@ expect 0 'bulk_modulus_core' "$scree" measure run320 other --fields elastic --fr
 checks=$((checks + 1))
 head -1 both/cuts.csv | grep -q 'bulk_modulus_low \[Pa\],bulk_modulus_high \[Pa\]' || complain "bands"
 expect 0 '^[01](\.|$)' "$scree" get both strain_dip_p
+for name in cambou liao difference bagi; do
+    expect 0 '^-?[01](\.|$)' "$scree" get both strain_dip_${name}_checked
+    same "$(head -1 both/strain-dips-$name.csv)" "$(head -1 both/strain-dips.csv)" "dips by $name"
+    same "$(number one strain_dip_$name)" "$(number run320 strain_dip_$name)" "the run's own strain_dip_$name"
+done
+# Of one run the tables by cuts have the same dips under the same names.
+for name in "" cambou liao difference bagi; do
+    checks=$((checks + 1))
+    awk -F, -v told="$(number one "strain_dip${name:+_$name}")" 'NR == 2 { found = $2 }
+        END { off = found - told; exit !(told >= 0 && off < 1e-6 && off > -1e-6) }' "one/strain-dips${name:+-$name}.csv" ||
+        complain "strain dip $name: $(number one "strain_dip${name:+_$name}"), $(sed -n 2p "one/strain-dips${name:+-$name}.csv")"
+done
+# The distribution of the coordination number.
+same "$(number one coordination_elements_ratio)" "$(number run320 coordination_elements_ratio)" "the run's own"
 
 expect 0 'warning: .*earlier state was not at rest' "$scree" measure run320 --fields elastic --from '#12' --no-figures -o moving
 expect 0 'the earlier state not at rest' "$scree" get moving warnings

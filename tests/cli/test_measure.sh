@@ -60,6 +60,14 @@ checks=$((checks + 1))
 awk -v low="$("$scree" get both dip_low)" -v dip="$("$scree" get both dip)" -v high="$("$scree" get both dip_high)" -v p="$("$scree" get both dip_p)" \
     'BEGIN { exit !(low <= dip && dip <= high && p >= 0.25 && p <= 1) }' || complain "interval or p of the dip"
 same "$("$scree" get one dip_low)" nan "one pile has no interval"
+# Where the pressure is least and largest, from the apex.
+number() { "$scree" get "$1" "$2" 2>&1; }
+checks=$((checks + 1))
+awk -v l="$(number both pressure_minimum_place_low)" -v h="$(number both pressure_minimum_place_high)" \
+    -v d="$(number both pressure_minimum_depth)" -v s="$(number both pressure_minimum_share)" \
+    -v m="$(number both pressure_maximum_place)" \
+    'BEGIN { exit !((s == 0 || l <= h) && d >= 0 && d < 1 && s ~ /^[01]/ && s <= 1 && m ~ /^-?0/) }' || complain "the least pressure"
+same "$(number one pressure_maximum_place | grep -c '^-*[0-9]')$(number one pressure_minimum_share | grep -c 'no result')" 11 "of one pile"
 
 # Elements of growing size, their figures, and the scatter of several runs; a part of the grains in an element; threads.
 expect 0 'rve_fabric_grains' "$scree" measure pile1 pile2 pile1 --sizes 2,4,8,300 --from "#15" --element "10 %" --mirror -o sizes

@@ -355,10 +355,19 @@ static void two_states_of_a_lattice(void **state)
     near(number(value, "vertical_pressure_ratio"), 2, 1e-4);
     near(number(value, "horizontal_pressure_ratio"), 2, 1e-4);
     near(number(value, "coordination_ratio"), 1, 1e-12);
+    near(number(value, "coordination_elements_ratio"), 1, 1e-12);
+    near(number(value, "coordination_elements_spread_ratio"), 1, 1e-12);
+    // Six neighbours, fewer at the edges.
+    assert_true(number(value, "coordination_elements_spread") > 0.01);
+    assert_true(number(value, "coordination_elements_spread") < 0.2);
     near(number(value, "mobilised_ratio"), 1, 1e-4);
     near(number(value, "strain_mean"), -1e-6, 1e-11);
     near(number(value, "strain_cambou_deviation"), 0, 1e-5);
     near(number(value, "strain_bagi_deviation"), 0, 1e-5);
+    // Of one strain everywhere none has a dip.
+    static const char *const dips[] = {"strain_dip", "strain_dip_cambou", "strain_dip_liao", "strain_dip_difference",
+                                       "strain_dip_bagi"};
+    for (size_t k = 0; k < sizeof dips / sizeof *dips; k++) near(number(value, dips[k]), 0, 1e-5);
     near(number(value, "elastic_misfit_core"), 0, 1e-5);
     // Centres in elements of 40 grains come and go by rows, and the lowest row has no contacts below it.
     const double bulk = sqrt(3) / 2 * STIFFNESS / 0.25;
@@ -375,6 +384,54 @@ static void two_states_of_a_lattice(void **state)
     scree_average_sample_destroy(&after);
 }
 
+/// A lattice that is pressed down half way between its axis and its sides more than on them: a strain with a dip, which
+/// all definitions see. And near the axis grains lose their contacts with those beside them: the mean of the elements
+/// falls, and its width grows.
+static void dips_and_distributions_of_two_states(void **state)
+{
+    (void)state;
+    const double none[9] = {0};
+    double value[SCREE_INCREMENT_ROWS];
+    scree_average_sample before = lattice(2, 20), after = lattice(2, 20);
+    scree_error error;
+    strain(&before, none);
+    strain(&after, none);
+    average_finish(&before);
+    const double middle = 0.5 * (before.low[0] + before.high[0]), half = before.high[0] - middle;
+    for (size_t p = 0; p < after.bodies; p++) {
+        double *x = after.grain[p].position;
+        const double off = fabs(x[0] - middle) / half;
+        x[1] -= 1e-6 * x[1] * (0.05 + off * (1 - off));
+        after.grain[p].angle = 2e-7 * (average_random(p) - 0.5); // that of Liao is another one
+    }
+    size_t kept = 0;
+    for (size_t c = 0; c < after.contacts; c++) {
+        scree_average_contact contact = after.contact[c];
+        scree_subtract(after.grain[contact.first].position, after.grain[contact.second].position, contact.branch);
+        if (fabs(contact.normal[1]) > 0.1 || fabs(contact.point[0] - middle) > 0.3 * half)
+            after.contact[kept++] = contact;
+    }
+    assert_true(kept < after.contacts);
+    after.contacts = kept;
+    check(scree_average_move(&after, &before, &error), &error);
+    average_finish(&after);
+    check(scree_average_increment_find(&before, &after, 0, value, &error), &error);
+    static const char *const dips[] = {"strain_dip", "strain_dip_cambou", "strain_dip_liao", "strain_dip_difference",
+                                       "strain_dip_bagi"};
+    // 1 - 0.05 / 0.3, less what elements of 6 x 6 grains smear.
+    for (size_t k = 0; k < sizeof dips / sizeof *dips; k++)
+        if (!(number(value, dips[k]) > 0.2 && number(value, dips[k]) < 0.83))
+            fail_msg("%s is %g", dips[k], number(value, dips[k]));
+    for (size_t k = 0; k < sizeof dips / sizeof *dips; k++)
+        for (size_t i = 0; i < k; i++) assert_true(fabs(number(value, dips[k]) - number(value, dips[i])) > 1e-5);
+    // A fifth of all grains or so lose two of six.
+    assert_true(number(value, "coordination_elements_ratio") < 0.95);
+    assert_true(number(value, "coordination_elements_ratio") > 0.75);
+    assert_true(number(value, "coordination_elements_spread_ratio") > 1.5);
+    scree_average_sample_destroy(&before);
+    scree_average_sample_destroy(&after);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -386,6 +443,7 @@ int main(void)
         cmocka_unit_test(smooth_strains_are_exact_for_affine_motion),
         cmocka_unit_test(sizes_predict_the_fabric),
         cmocka_unit_test(two_states_of_a_lattice),
+        cmocka_unit_test(dips_and_distributions_of_two_states),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include "average/chains.h"
 #include "average/dip.h"
 #include "average/force_statistics.h"
+#include "average/minimum.h"
 #include "average/table.h"
 
 enum { POINTS = 21 };
@@ -300,12 +301,88 @@ static void test_chains(void **state)
     }
 }
 
+/// Profiles of `heaps` about an axis: highest at two places with a valley between them, and some noise.
+static void make_valleys(double *profile, size_t heaps, double valley, double depth, double noise, uint64_t seed)
+{
+    for (size_t i = 0; i < heaps; i++)
+        for (size_t j = 0; j < POINTS; j++) {
+            const double x = ((double)j - 10) / 10, off = x - valley;
+            profile[i * POINTS + j] =
+                1 - off * off - depth * exp(-25 * off * off) + noise * (average_random(seed + i * POINTS + j) - 0.5);
+        }
+}
+
+static scree_average_minimum minimum_of(const double *profile, const double *apex, size_t heaps)
+{
+    scree_average_minimum minimum;
+    scree_error error;
+    check(scree_average_minimum_find(profile, apex, heaps, POINTS, &minimum, &error), &error);
+    return minimum;
+}
+
+/// Without noise: a valley at 0.3, both of whose shoulders lie to the right of an apex at -0.1; the lower one counts.
+static void test_minimum_exact(void **state)
+{
+    (void)state;
+    double profile[POINTS], left = 0, right = 0;
+    const double apex = -0.1;
+    make_valleys(profile, 1, 0.3, 0.4, 0, 0);
+    profile[10] += 0.01; // the left shoulder, 0.3 from the valley, is the higher one
+    for (size_t j = 0; j < 13; j++) left = fmax(left, profile[j]);
+    for (size_t j = 14; j < POINTS; j++) right = fmax(right, profile[j]);
+    assert_true(left > right);
+    scree_average_minimum m = minimum_of(profile, &apex, 1);
+    near(m.place.value, 0.4, 1e-12);
+    near(m.depth.value, 1 - profile[13] / right, 1e-12);
+    near(m.highest.value, 0.1, 1e-12);
+    assert_true(isnan(m.place.low) && isnan(m.depth.high) && isnan(m.share)); // one heap
+    // The mirror image has it as far on the other side.
+    double mirror[POINTS];
+    const double other = -apex;
+    for (size_t j = 0; j < POINTS; j++) mirror[j] = profile[POINTS - 1 - j];
+    near(minimum_of(mirror, &other, 1).place.value, -0.4, 1e-12);
+    near(minimum_of(mirror, &other, 1).highest.value, -0.1, 1e-12);
+    // A dome has none, wherever its apex lies; its top is found.
+    make_valleys(profile, 1, 0.3, 0, 0, 0);
+    for (int k = -9; k <= 9; k++) {
+        const double at = 0.1 * k + 0.03;
+        m = minimum_of(profile, &at, 1);
+        assert_true(isnan(m.place.value));
+        near(m.depth.value, 0, 1e-15);
+        near(m.highest.value, 0.3 - at, 1e-12);
+    }
+}
+
+/// Of an ensemble the place has an interval, also where each heap has another apex; a dome with noise has a minimum in
+/// some resamples alone, and one whose heaps say nothing (NAN) none.
+static void test_minimum_of_ensembles(void **state)
+{
+    (void)state;
+    double profile[8 * POINTS], apex[8];
+    for (size_t i = 0; i < 8; i++) apex[i] = 0.01 * (double)i - 0.035;
+    make_valleys(profile, 8, 0.1, 0.4, 0.1, 4000);
+    scree_average_minimum m = minimum_of(profile, apex, 8);
+    near(m.share, 1, 0);
+    near(m.place.value, 0.1, 1e-12);
+    assert_true(m.place.low < 0.1 && m.place.high > 0.1 && m.place.high - m.place.low < 0.3);
+    assert_true(m.depth.low > 0.1 && m.depth.low <= m.depth.value && m.depth.value <= m.depth.high);
+    make_valleys(profile, 8, 0.1, 0, 0.1, 5000);
+    m = minimum_of(profile, apex, 8);
+    assert_true(m.share > 0 && m.share < 1 && m.depth.low < 0.01);
+    for (size_t k = 0; k < 8 * POINTS; k++) profile[k] = NAN;
+    m = minimum_of(profile, apex, 8);
+    assert_true(isnan(m.depth.value) && isnan(m.place.value));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_dip_exact),      cmocka_unit_test(test_dip_there), cmocka_unit_test(test_dip_absent),
-        cmocka_unit_test(test_means),          cmocka_unit_test(test_coverage),  cmocka_unit_test(test_decay),
-        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_shares),    cmocka_unit_test(test_chains),
+        cmocka_unit_test(test_minimum_exact),  cmocka_unit_test(test_minimum_of_ensembles),
+        cmocka_unit_test(test_dip_exact),      cmocka_unit_test(test_dip_there),
+        cmocka_unit_test(test_dip_absent),     cmocka_unit_test(test_means),
+        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_decay),
+        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_shares),
+        cmocka_unit_test(test_chains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

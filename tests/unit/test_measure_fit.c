@@ -114,9 +114,35 @@ static void test_exact(void **state)
     assert_true(number_of(&found, "fit_bcc_information").value > number_of(&found, "fit_osl_information").value);
     assert_near(number_of(&found, "mohr_coulomb_flank").value, 0, 1e-4);
     assert_true(number_of(&found, "mohr_coulomb_axis").value < -0.5);
+    assert_near(number_of(&found, "mohr_coulomb_flank_above").value, 0, 1e-4);
+    assert_true(number_of(&found, "mohr_coulomb_axis_above").value < -0.5);
     // Of the OSL closure mu sigma_xy is left beside the axis, whose share goes with x.
     assert_near(number_of(&found, "stress_ratio_axis").value, 0.74, 0.02);
     forget(each, PILES, &found);
+}
+
+/// What is told of the cuts above the lowest one is the mean of their rows, by the half width at their height.
+static void check_above(const measure_found *found)
+{
+    static const struct {
+        const char *name, *lowest;
+        double from, to;
+    } of[] = {{"mohr_coulomb_axis_above", "mohr_coulomb_axis", 0, 0.1},
+              {"mohr_coulomb_flank_above", "mohr_coulomb_flank", 0.5, 0.8}};
+    for (int k = 0; k < 2; k++) {
+        double sum = 0, count = 0;
+        for (size_t i = 0; i < found->fits->rows; i++) {
+            const measure_fit_row *row = &found->fits->row[i];
+            const scree_stress_2d *s = &row->point.stress;
+            const double place = row->point.x / (row->point.y / tan(SLOPE));
+            if (row->cut == 0 || place < of[k].from || place > of[k].to) continue;
+            sum += (pow(s->xx - s->yy, 2) + pow(2 * s->xy, 2)) / pow(sin(SLOPE) * (s->xx + s->yy), 2) - 1;
+            count++;
+        }
+        assert_true(count > 3);
+        assert_near(number_of(found, of[k].name).value, sum / count, 1e-9);
+        assert_true(fabs(number_of(found, of[k].lowest).value - sum / count) > 1e-6);
+    }
 }
 
 /// With noise the interval of the jackknife has eta in about 95 % of ensembles: 19 of 20, 15 or fewer in 0.03 %.
@@ -131,6 +157,7 @@ static void test_noise(void **state)
         make(0.74, 0.03, seed, each, &found, &plan);
         const measure_fit_number eta = number_of(&found, "fit_osl_eta");
         covered += eta.low < 0.74 && eta.high > 0.74;
+        check_above(&found);
         honest += eta.high - eta.low < 0.5;
         forget(each, PILES, &found);
     }
