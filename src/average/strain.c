@@ -162,7 +162,7 @@ static scree_status make_cells(scree_average_strain *strain, scree_error *error)
         assembly.radius[assembly.count++] = grain->radius;
     }
     assembly.position = strain->place;
-    if (!status && !scree_cells_build(&assembly, sample->mean_radius, &strain->cells, &problem)) {
+    if (!status && !scree_cells_build(&assembly, SCREE_PEEL_RULE(sample->mean_radius), &strain->cells, &problem)) {
         status = scree_allocate(&strain->gradient, strain->cells.count, sizeof *strain->gradient, error);
         if (!status) scree_cells_gradient(&strain->cells, strain->place, moved, strain->gradient);
     }

@@ -6,6 +6,7 @@
 #include "measure/cells.h"
 
 #include "integrate/integrate.h"
+#include "measure/facets.h"
 #include "search/delaunay.h"
 #include "search/tetrahedra.h"
 
@@ -143,11 +144,12 @@ static scree_status keep_inside(const simplices *all, const scree_assembly *asse
 }
 
 /// Triangles inside the boundary loop. A flat one on a straight side counts as outside.
-static scree_status find_triangles(const scree_assembly *assembly, const double *points, double gap_limit,
+static scree_status find_triangles(const scree_assembly *assembly, const double *points, const scree_peel_rule *rule,
                                    scree_cells *cells, scree_error *error)
 {
     scree_triangulation triangulation;
-    const scree_peel_rule rule = {.gap_limit = gap_limit, .outline = assembly->outlines.core};
+    scree_peel_rule of_outlines = *rule;
+    of_outlines.outline = assembly->outlines.core;
     uint32_t *loop = NULL;
     size_t loop_count;
     scree_status status = scree_triangulation_build(points, assembly->count, &triangulation, error);
@@ -156,7 +158,7 @@ static scree_status find_triangles(const scree_assembly *assembly, const double 
         .count = triangulation.count, .triangle = triangulation.vertex, .triangle_neighbour = triangulation.neighbour};
     status = scree_allocate(&all.outside, all.count, 1, error);
     if (!status)
-        status = scree_boundary_loop(&triangulation, points, assembly->radius, assembly->count, &rule, &loop,
+        status = scree_boundary_loop(&triangulation, points, assembly->radius, assembly->count, &of_outlines, &loop,
                                      &loop_count, all.outside, error);
     for (size_t t = 0; t < all.count && !status; t++) {
         const double *p[3];
@@ -191,7 +193,7 @@ static double shape_of(const double *points, const uint32_t vertex[4])
 }
 
 /// Tetrahedra inside the hull. Flat ones, as lattices have them, count as outside.
-static scree_status find_tetrahedra(const scree_assembly *assembly, const double *points, double gap_limit,
+static scree_status find_tetrahedra(const scree_assembly *assembly, const double *points, const scree_peel_rule *rule,
                                     scree_cells *cells, scree_error *error)
 {
     scree_tetrahedra tetrahedra;
@@ -202,8 +204,8 @@ static scree_status find_tetrahedra(const scree_assembly *assembly, const double
         .count = tetrahedra.count, .tetrahedron = tetrahedra.vertex, .tetrahedron_neighbour = tetrahedra.neighbour};
     status = scree_allocate(&all.outside, all.count, 1, error);
     if (!status)
-        status = scree_boundary_surface(&tetrahedra, points, assembly->radius, assembly->count,
-                                        SCREE_PEEL_RULE(gap_limit), &surface, all.outside, error);
+        status = scree_boundary_surface(&tetrahedra, points, assembly->radius, assembly->count, rule, &surface,
+                                        all.outside, error);
     for (size_t t = 0; t < all.count && !status; t++)
         all.outside[t] = all.outside[t] == SCREE_TRIANGLE_CUT || shape_of(points, all.tetrahedron[t]) < 1e-9;
     if (!status) status = keep_inside(&all, assembly, cells, error);
@@ -213,7 +215,8 @@ static scree_status find_tetrahedra(const scree_assembly *assembly, const double
     return status;
 }
 
-scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit, scree_cells *cells, scree_error *error)
+scree_status scree_cells_build(const scree_assembly *assembly, const scree_peel_rule *rule, scree_cells *cells,
+                               scree_error *error)
 {
     *cells = (scree_cells){.dimension = assembly->dimension, .bodies = assembly->count};
     size_t d = (size_t)assembly->dimension;
@@ -222,9 +225,9 @@ scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit,
     if (status) return status;
     for (size_t i = 0; i < assembly->count; i++) memcpy(points + d * i, assembly->position + 3 * i, d * sizeof *points);
     if (d == 3)
-        status = find_tetrahedra(assembly, points, gap_limit, cells, error);
+        status = find_tetrahedra(assembly, points, rule, cells, error);
     else
-        status = find_triangles(assembly, points, gap_limit, cells, error);
+        status = find_triangles(assembly, points, rule, cells, error);
     scree_release(&points);
     if (status) scree_cells_destroy(cells);
     return status;
@@ -239,6 +242,23 @@ void scree_cells_destroy(scree_cells *cells)
 }
 
 // ---- everything of a state ---------------------------------------------------------------------------------------
+
+/// The cells inside the boundary of the state as it would be found now, with its memory: without that they would be
+/// those of another region (boundary.gap_hysteresis).
+static scree_status build_inside_boundary(const scree_model *model, const scree_state *state,
+                                          const scree_assembly *assembly, scree_cells *cells, scree_error *error)
+{
+    scree_grain_place *grain = NULL;
+    uint32_t *past = NULL;
+    scree_peel_rule rule;
+    scree_status status = scree_allocate(&grain, assembly->count, sizeof *grain, error);
+    for (size_t k = 0; k < assembly->count && !status; k++) grain[k].id = assembly->id[k];
+    if (!status) status = scree_facet_rule(model, state, grain, assembly->count, &rule, &past, error);
+    if (!status) status = scree_cells_build(assembly, &rule, cells, error);
+    scree_release(&past);
+    scree_release(&grain);
+    return status;
+}
 
 static scree_status measure_motion(const scree_model *model, const scree_state *state, const scree_assembly *assembly,
                                    scree_cells *cells, scree_error *error)
@@ -261,8 +281,7 @@ scree_status scree_cells_measure(const scree_model *model, const scree_state *st
     *cells = (scree_cells){0};
     scree_status status = scree_assembly_of_state(model, state, &assembly, error);
     if (status) return status;
-    double gap_limit = model->upkeep.gap_limit * 2 * model->mean_radius;
-    status = scree_cells_build(&assembly, gap_limit, cells, error);
+    status = build_inside_boundary(model, state, &assembly, cells, error);
     if (!status) {
         cells->id = assembly.id;
         assembly.id = NULL;

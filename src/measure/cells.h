@@ -4,14 +4,15 @@
 /// P 2.5: with the velocities of its nodes, the centres of the particles, a cell has exactly one velocity gradient, and
 /// the stress of Christoffersen et al. (1981) is its work conjugate: the assembly is a mesh of constant-strain elements
 /// (Bagi 1996, Satake 2004). Cells are those of the Delaunay triangulation of all centres that lie inside the boundary
-/// (loop or hull), which is found anew from the same positions: what is between the boundary and the plates has no
-/// cell.
+/// (loop or hull), which is found anew from the same positions, with the memory of the one before where there is one:
+/// what is between the boundary and the plates has no cell.
 ///
 /// Tensors are row-major 3 x 3, tension positive; in 2D all but xx, xy, yx, yy are zero.
 #ifndef SCREE_MEASURE_CELLS_H
 #define SCREE_MEASURE_CELLS_H
 
 #include "contact/contact.h"
+#include "search/peel_rule.h"
 #include "shape/outlines.h"
 
 /// Grains in the order of their ids (the bodies of a membrane are left out).
@@ -46,9 +47,9 @@ typedef struct scree_cells {
 } scree_cells;
 
 /// Cells inside the boundary of the assembly at its positions: the loop of search/delaunay.h, the surface of
-/// search/tetrahedra.h. gap_limit: m, as for the boundary, of the same gaps. Errors: memory, no triangulation.
-/// Cost: O(n log n): Delaunay is nearly all of it.
-scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit, scree_cells *cells,
+/// search/tetrahedra.h. rule: limits of gaps and slivers, in places of the assembly, whose outlines are taken. Errors:
+/// memory, no triangulation. Cost: O(n log n): Delaunay is nearly all of it.
+scree_status scree_cells_build(const scree_assembly *assembly, const scree_peel_rule *rule, scree_cells *cells,
                                scree_error *error) SCREE_MUST_USE;
 void scree_cells_destroy(scree_cells *cells);
 

@@ -18,13 +18,15 @@ typedef struct scree_cell_averages {
     double from, to;            ///< axial strains between which instants count for circles and regions
     double instants;            ///< of them
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT]; ///< sums over them
-    double strong[SCREE_REGION_COUNT];   ///< sums over them of shares of the volume above STRONG mean pressures
-    double deformed[SCREE_REGION_COUNT]; ///< the same above DEFORMED mean distortions
-    double spread, diameter, wide;     ///< sums over them; wide: spread of circles from WIDE diameters on
-    double wide_instants;              ///< of those that have such circles
+    double strong[SCREE_REGION_COUNT];       ///< sums over them of shares of the volume above STRONG mean pressures
+    double deformed[SCREE_REGION_COUNT];     ///< the same above DEFORMED mean distortions
+    double spread, diameter, wide;           ///< sums over them; wide: spread of circles from WIDE diameters on
+    double wide_instants;                    ///< of those that have such circles
     double cell_stress[9], sample_stress[9]; ///< sums over all instants of the stage
     double cell_strain[9];                   ///< sum over its snapshots
-    double begin, end;                       ///< s, of the first and the last; NAN without
+    double renewed; ///< 1, sum over its snapshots of log (volume of the cells found there / of those that came there)
+    double first_volume, last_volume; ///< m3 (m2 in 2D), of all cells of its first and its last snapshot
+    double begin, end;                ///< s, of the first and the last; NAN without
 } scree_cell_averages;
 
 /// Forgets everything: a stage begins.

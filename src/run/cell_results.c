@@ -337,6 +337,9 @@ static scree_status resolve(scree_model *model, scree_error *error)
 static const scree_result results[] = {
     {"cell_stress_disagreement", "1", "stress of the cells against that of the contacts"},
     {"cell_strain_disagreement", "1", "strain of the cells against that of the boundary"},
+    {"cell_volumetric_strain", "1", "sum of the volumetric strains of the cells from snapshot to snapshot"},
+    {"cell_volumetric_strain_renewed", "1", "what new cells at each snapshot change in the volume"},
+    {"cell_volumetric_strain_enclosed", "1", "volume of the cells of the last snapshot against the first"},
     {"circle_pressure_spread", "1", "spread of the pressure over circles"},
     {"circle_pressure_spread_wide", "1", "the same over circles from 4 mean diameters on"},
     {"circle_pressure_diameter", "1", "diameter from which on circles have the mean pressure, in mean diameters"},

@@ -39,7 +39,7 @@ static void make_snapshot(scree_cell_snapshot *s, int dimension, size_t side, do
 {
     *s = (scree_cell_snapshot){.stage = "compress"};
     make_assembly(&s->assembly, dimension, side, bulge);
-    assert_int_equal(scree_cells_build(&s->assembly, 3 * D, &s->cells, NULL), SCREE_OK);
+    assert_int_equal(scree_cells_build(&s->assembly, SCREE_PEEL_RULE(3 * D), &s->cells, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->cells.stress, s->cells.count, sizeof *s->cells.stress, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->cells.pressure, s->cells.count, sizeof(double), NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->cells.distortion, s->cells.count, sizeof(double), NULL), SCREE_OK);
@@ -254,6 +254,50 @@ static void cells_are_compared_with_the_sample(void **unused)
     }
 }
 
+/// Everything shrinks alike from snapshot to snapshot, and each time the cells of more bodies near one side are left
+/// out: the first is strain, the second a renewal, and the volumes at the ends hold both.
+static void renewals_of_cells_are_no_strain(void **unused)
+{
+    (void)unused;
+    enum { SNAPSHOTS = 4, SIDE = 10 };
+    const double scale = 0.99, ratio[SCREE_CIRCLES] = {1, 1, 1};
+    const scree_config config = {0};
+    for (int d = 2; d <= 3; d++) {
+        scree_cell_snapshot s[SNAPSHOTS];
+        scree_cell_averages averages;
+        scree_summary *summary;
+        double volume[SNAPSHOTS] = {0}, size = 1, renewed = 0;
+        scree_cell_averages_begin(&averages, &config.measure, NULL);
+        for (int n = 0; n < SNAPSHOTS; n++, size *= scale) {
+            make_snapshot(&s[n], d, d == 2 ? SIDE : SIDE / 2, 0);
+            s[n].time = n;
+            size_t kept = 0;
+            for (size_t k = 0; k < s[n].cells.count; k++)
+                if (s[n].cells.node[k][0] >= 3 * (size_t)n) memcpy(s[n].cells.node[kept++], s[n].cells.node[k], 16);
+            assert_true(n == 0 || kept < s[n - 1].cells.count);
+            s[n].cells.count = kept;
+            for (size_t k = 0; k < kept; k++) volume[n] += scree_cell_volume_at(&s[n].cells, k, s[n].assembly.position);
+            for (size_t i = 0; i < 3 * s[n].assembly.count; i++) s[n].assembly.position[i] *= size;
+            assert_int_equal(scree_cell_averages_add(&averages, &s[n], ratio, 1, NULL), SCREE_OK);
+            if (n == 0) continue;
+            assert_int_equal(scree_cell_averages_strain(&averages, &s[n - 1], &s[n], NULL), SCREE_OK);
+            renewed += log(volume[n] / volume[n - 1]);
+        }
+        assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
+        scree_cell_averages_summarise(&averages, d, summary);
+        const double strain = (SNAPSHOTS - 1) * d * 2 * (1 - scale) / (1 + scale);
+        const double whole = -log(pow(scale, d * (SNAPSHOTS - 1)) * volume[SNAPSHOTS - 1] / volume[0]);
+        assert_true(renewed < -0.02);
+        assert_true(fabs(result(summary, "cell_volumetric_strain") - strain) < 1e-12);
+        assert_true(fabs(result(summary, "cell_volumetric_strain_renewed") + renewed) < 1e-12);
+        assert_true(fabs(result(summary, "cell_volumetric_strain_enclosed") - whole) < 1e-12);
+        // The trace of an increment is its logarithm to third order.
+        assert_true(fabs(strain - renewed - whole) < d * (SNAPSHOTS - 1) * pow(1 - scale, 3));
+        scree_summary_destroy(summary);
+        for (int n = 0; n < SNAPSHOTS; n++) scree_cell_snapshot_destroy(&s[n]);
+    }
+}
+
 // ---- roughness ---------------------------------------------------------------------------------------------------
 
 /// Grains on circles, moved by an affine map after six waves of height `wave` around the boundary.
@@ -343,7 +387,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(regions_lie_where_they_should),           cmocka_unit_test(circles_are_summed_up),
         cmocka_unit_test(strong_cells_are_counted_where_they_are), cmocka_unit_test(cells_are_compared_with_the_sample),
-        cmocka_unit_test(roughness_is_what_is_not_affine),         cmocka_unit_test(corners_are_told_from_the_rest),
+        cmocka_unit_test(renewals_of_cells_are_no_strain),         cmocka_unit_test(roughness_is_what_is_not_affine),
+        cmocka_unit_test(corners_are_told_from_the_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

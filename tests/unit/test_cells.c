@@ -76,7 +76,7 @@ static void sample_create(sample *s, int dimension, size_t side)
     memset(s, 0, sizeof *s);
     place_bodies(s, dimension, side);
     touch(s);
-    assert_int_equal(scree_cells_build(&s->assembly, 1e-3, &s->cells, NULL), SCREE_OK);
+    assert_int_equal(scree_cells_build(&s->assembly, SCREE_PEEL_RULE(1e-3), &s->cells, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->cells.gradient, s->cells.count, sizeof *s->cells.gradient, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->cells.stress, s->cells.count, sizeof *s->cells.stress, NULL), SCREE_OK);
 }
@@ -348,11 +348,11 @@ static void test_bad_points(void **unused)
     scree_assembly assembly = {.dimension = 3, .thickness = 1, .count = 3, .position = place, .radius = radius};
     scree_cells cells;
     scree_error error;
-    assert_int_equal(scree_cells_build(&assembly, 1, &cells, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(scree_cells_build(&assembly, SCREE_PEEL_RULE(1), &cells, &error), SCREE_ERROR_GUARD);
     assembly.count = 4;
-    assert_int_equal(scree_cells_build(&assembly, 1, &cells, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(scree_cells_build(&assembly, SCREE_PEEL_RULE(1), &cells, &error), SCREE_ERROR_GUARD);
     assembly.count = 5;
-    assert_int_equal(scree_cells_build(&assembly, 1, &cells, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(scree_cells_build(&assembly, SCREE_PEEL_RULE(1), &cells, &error), SCREE_ERROR_GUARD);
 }
 
 static double milliseconds(struct timespec from, struct timespec to)
@@ -373,7 +373,7 @@ static void test_cost(void **unused)
         for (int repeat = 0; repeat < 5; repeat++) {
             scree_cells_destroy(&s.cells);
             clock_gettime(CLOCK_MONOTONIC, &begin);
-            assert_int_equal(scree_cells_build(&s.assembly, 1e-3, &s.cells, NULL), SCREE_OK);
+            assert_int_equal(scree_cells_build(&s.assembly, SCREE_PEEL_RULE(1e-3), &s.cells, NULL), SCREE_OK);
             clock_gettime(CLOCK_MONOTONIC, &end);
             build = fmin(build, milliseconds(begin, end));
         }

@@ -41,7 +41,7 @@ static void sample_create(sample *s, int dimension, size_t side)
             s->assembly.position[3 * i + d] = DIAMETER * ((double)at[d] + 0.6 * (uniform(1, 3 * i + d) - 0.5));
         s->assembly.radius[i] = DIAMETER / 2;
     }
-    assert_int_equal(scree_cells_build(&s->assembly, DIAMETER, &s->cells, NULL), SCREE_OK);
+    assert_int_equal(scree_cells_build(&s->assembly, SCREE_PEEL_RULE(DIAMETER), &s->cells, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->field, s->cells.count, sizeof(double), NULL), SCREE_OK);
     for (int k = 0; k < 2; k++) {
         assert_int_equal(scree_allocate(&s->body[k], count, sizeof(double), NULL), SCREE_OK);

@@ -175,7 +175,9 @@ static double area_of_cells(scree_simulation *s)
     scree_cells cells;
     double area = 0;
     check(scree_assembly_of_state(&s->model, &s->state, &assembly, &error), &error);
-    check(scree_cells_build(&assembly, 2 * s->model.mean_radius * s->model.upkeep.gap_limit, &cells, &error), &error);
+    check(scree_cells_build(&assembly, SCREE_PEEL_RULE(2 * s->model.mean_radius * s->model.upkeep.gap_limit), &cells,
+                            &error),
+          &error);
     for (size_t k = 0; k < cells.count; k++) area += cells.volume[k] / assembly.thickness;
     scree_cells_destroy(&cells);
     scree_assembly_destroy(&assembly);

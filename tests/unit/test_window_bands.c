@@ -23,7 +23,7 @@ static scree_cell_snapshot lattice(void)
             D * ((double)(id / SIDE) + 0.3 * scree_random_uniform(5, SCREE_RANDOM_TEST, 2 * id + 1));
         a->radius[id] = D / 2;
     }
-    assert_int_equal(scree_cells_build(a, D, &s.cells, NULL), SCREE_OK);
+    assert_int_equal(scree_cells_build(a, SCREE_PEEL_RULE(D), &s.cells, NULL), SCREE_OK);
     return s;
 }
 
