@@ -5,6 +5,7 @@
 
 #include "base/integer_sum.h"
 #include "boundary/pressure.h"
+#include "boundary/rigid_motion.h"
 #include "measure/imposed_gradient.h"
 #include "state/periodic.h"
 
@@ -49,6 +50,8 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls & scree_periodic_plates(state), table);
+    // Nothing would ever take the rigid motion from a sample that its plates leave alone.
+    if (*changed && boundary->free) state->ledger.plates -= scree_rigid_motion_stop(model, state);
     scree_imposed(state)->count = 0; // what another boundary imposed is over
     scree_status status = SCREE_OK;
     if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);

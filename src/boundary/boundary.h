@@ -37,7 +37,8 @@ enum {
 bool scree_boundary_has_plates(const scree_boundary *boundary);
 
 /// Changes the walls to those of `boundary` and begins it. `table`: contacts at the present step; the elastic energy of
-/// those with a wall that goes leaves the ledger with it. changed: walls or bodies are others than before, and contact
+/// those with a wall that goes leaves the ledger with it; so does the motion of the sample as a rigid body where the
+/// boundary is free. changed: walls or bodies are others than before, and contact
 /// lists have to be made anew. Errors: the boundary's own, memory.
 scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_model *model, scree_state *state,
                                   const scree_contact_table *table, bool *changed, scree_error *error) SCREE_MUST_USE;
