@@ -54,7 +54,8 @@ static void the_balance_closes(void **unused)
         const double residual = s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE];
         print_message("%-9s residual %.2g, coordination %.3g, %llu steps\n", cases[k].name, residual,
                       s.sample[SCREE_SAMPLE_COORDINATION], (unsigned long long)s.state.step);
-        assert_true(residual < 1e-6); // without the row of the law 0.04
+        // Without the row of the law 0.04. In a cell the balance has an error of second order in the step.
+        assert_true(residual < (strcmp(cases[k].name, "periodic") == 0 ? 1e-6 : 1e-9));
         assert_true(s.sample[SCREE_SAMPLE_COORDINATION] > 2);
         scree_simulation_close(&s);
         scree_case_free(c);

@@ -124,7 +124,7 @@ static void a_sample_without_plates_does_not_turn(void **unused)
     print_message("turns with %.3g rad/s between plates, with %.3g without; residual %.2g\n", before, after, residual);
     assert_true(before > 0.03); // a tenth of the rate of strain
     assert_true(after < 0.01 * before);
-    assert_true(residual < 1e-6);
+    assert_true(residual < 1e-9); // without the last half of the work of the plates 2e-8
     scree_simulation_close(&s);
     scree_case_free(c);
 }
