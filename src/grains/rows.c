@@ -113,7 +113,7 @@ scree_status grain_rows_finish(grain_rows *rows, const grain_text *text, scree_e
 {
     scree_grains *g = rows->grains;
     numbered *order = NULL;
-    if (!rows->id) return SCREE_OK;
+    if (!rows->id || g->count == 0) return SCREE_OK;
     scree_status status = scree_allocate(&order, g->count, sizeof *order, error);
     for (size_t i = 0; i < g->count && !status; i++) order[i] = (numbered){rows->id[i], i};
     if (!status) qsort(order, g->count, sizeof *order, by_id);

@@ -116,7 +116,7 @@ static void compare(const scree_context *c, const scree_contact_table *table, in
     number[MADE] = number[SLIDING] = 0;
     for (size_t k = 0; k < table->count; k++) {
         const noted now = note(c, &table->contact[k]);
-        const noted *then = bsearch(&now, w->contact, w->count, sizeof now, by_ends);
+        const noted *then = w->count > 0 ? bsearch(&now, w->contact, w->count, sizeof now, by_ends) : NULL;
         there += then != NULL;
         number[MADE] += then == NULL;
         number[SLIDING] += then && now.slides && !then->slides;
@@ -141,7 +141,7 @@ static scree_status note_all(const scree_context *c, scree_error *error)
     if (!status) status = scree_group_reserve(c->state, &scree_module_response_watch, &contacts, table.count, error);
     w->count = 0;
     for (size_t k = 0; k < table.count && !status; k++) w->contact[w->count++] = note(c, &table.contact[k]);
-    if (!status) qsort(w->contact, w->count, sizeof *w->contact, by_ends);
+    if (!status && w->count > 0) qsort(w->contact, w->count, sizeof *w->contact, by_ends);
     scree_contact_table_destroy(&table);
     return status;
 }

@@ -54,7 +54,7 @@ static void curve_add(curve *c, int dimension, double radius, double weight)
 static void curve_finish(curve *c)
 {
     double whole = 0, finer = 0;
-    qsort(c->grain, c->count, sizeof *c->grain, by_size);
+    if (c->count > 0) qsort(c->grain, c->count, sizeof *c->grain, by_size);
     for (size_t i = 0; i < c->count; i++) whole += c->grain[i][1];
     for (size_t i = 0; i < c->count; i++) {
         finer += c->grain[i][1];

@@ -137,4 +137,22 @@ expect 2 'measure.response_element: an element of 0.3 m is larger than the layer
 # A load that the layer does not bear: no response, and why.
 expect 0 'no response: the layer gives way.*until_force.*smaller' "$scree" run "${layer[@]}" --set loads.piston.until_force="1 MN" --set stages.press.duration="2 ms" --set stages.hold.duration="2 ms" -o yields
 expect 2 'no result .response_force' "$scree" get yields response_force
+
+# A load that begins where nothing touches: the contact that is made is the change.
+cat >fall.yaml <<END
+name: fall
+gravity: [0, -10]
+materials: [{name: stone, young_modulus: 10 MPa, poisson_ratio: 0.3, density: 5000 kg/m3, friction: 0}]
+particles: {material: stone, thickness: 1 m, count: 1, distribution: equal, radius: 5 mm}
+integrator: {step: 1e-5 s}
+walls: [{shape: plane, name: plate, point: [0, 0], normal: [0, 1]}]
+selections: [{select: top, name: one}]
+loads: [{load: prescribed, name: piston, selection: one, from: fall, force_y: -1 N}]
+stages: [{stage: prepare, method: bodies, bodies: [{position: [0, 6 mm]}]}, {stage: relax, name: fall, duration: 20 ms}]
+measure: {samples: 20, cells: no, response_load: piston}
+output: {figures: no, paraview: no}
+END
+expect 0 'there are no contacts' "$scree" run fall.yaml -o fall -q
+same "$("$scree" get fall response_changed_force)" 1 'the load at a first contact'
+same "$("$scree" get fall response_first_made)" 1 'a first contact'
 finish

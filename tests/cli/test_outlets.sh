@@ -105,4 +105,11 @@ sed "s/dimension: 3/dimension: 2/; s/\[0, 0, -9.81\]/[0, -9.81]/; s/sphere/disc/
 expect 0 '' "$scree" run slope.yaml -o slope -q
 near 'the angle of a slope' "$(get slope surface_angle)" -30 1
 expect 2 'measure.surface: a cone has three dimensions' "$scree" check slope.yaml --set measure.surface=cone
+
+# --- all have gone: figures of what is left have nothing to show, and are drawn
+sed 's/count: 4, distribution: equal, radius: 1 mm/count: 4, distribution: uniform, radius_min: 0.8 mm, radius_max: 1 mm/
+    s/, velocity: \[-1 m/, radius: 1 mm&/g; s/{stage: relax, duration: 25 ms}/{stage: relax, duration: 60 ms}/' flight.yaml >gone.yaml
+expect 0 '' "$scree" run gone.yaml -o gone -q
+same "$(get gone outflow)" 4 'all have gone'
+expect 0 'sizes' "$scree" plot gone --only sizes
 finish

@@ -128,6 +128,7 @@ static void what_is_wrong_is_shown(void **unused)
         {"x [s], y\n4, 2\n", 1, 1, "unit of the column x"},
         {"x, y, x\n4, 2, 1\n", 1, 7, "this column is there twice"},
         {"x, y\n", 1, 1, "the file has no grains"},
+        {"id, x, y\n", 1, 1, "the file has no grains"},
         {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS id x y z\n1 0 0 0\n", 6, 1, "after 1 of 3 grains"},
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -298,7 +299,8 @@ static void cases_are_checked(void **unused)
     expect_refused(fine, space, 2, "no column z");
     expect_refused(fine, checksum, 1, "the file has changed");
     expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n4,1,0.5\n9,2,0.75\n", NULL, 0, "1 of 3 grains lie outside");
-    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n2,1,0.5\n6,2,0.75\n", NULL, 0, "most of all grains 0 and 1 (from 0), by 2 of it");
+    expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n2,1,0.5\n6,2,0.75\n", NULL, 0,
+                   "most of all grains 0 and 1 (from 0), by 2 of it");
     expect_refused("x [mm],y [mm],radius [mm]\n1.5,1,1\n4,x,0.5\n", NULL, 0, "'x' is not a finite number");
     expect_refused("x [mm],y [mm],z [mm],radius [mm]\n1.5,1,1,1\n4,1,2,0.5\n6,2,2,0.75\n", NULL, 0,
                    "they lie in space");
