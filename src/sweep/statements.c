@@ -121,14 +121,14 @@ static bool read_criterion(scree_statement *s)
 }
 
 /// What is expected behind each.
-static const char *const behind[] = {[SCREE_CRITERION_WITHIN] = "a share, as in 'within 10 %'",
-                                     [SCREE_CRITERION_EQUIVALENT] =
-                                         "one number without unit, as in 'equivalent within 0.5'",
-                                     [SCREE_CRITERION_GREATER] = "one number without unit, as in 'greater than 2'",
-                                     [SCREE_CRITERION_LESS] = "one number without unit, as in 'less than 3'",
-                                     [SCREE_CRITERION_BETWEEN] = "two numbers, the lower one first, as in 'between 2 "
-                                                                 "and 4'",
-                                     [SCREE_CRITERION_HOLDS] = "nothing"};
+static const char *const behind[] = {
+    [SCREE_CRITERION_WITHIN] = "a share, as in 'within 10 %'",
+    [SCREE_CRITERION_EQUIVALENT] = "one number without unit, as in 'equivalent within 0.5'",
+    [SCREE_CRITERION_GREATER] = "one number without unit, as in 'greater than 2'",
+    [SCREE_CRITERION_LESS] = "one number without unit, as in 'less than 3'",
+    [SCREE_CRITERION_BETWEEN] = "two numbers, the lower one first, as in 'between 2 and 4'",
+    [SCREE_CRITERION_HOLDS] = "nothing",
+};
 
 /// Notes what is wrong with a criterion: behind its words, or its words, with the nearest right ones.
 static void refuse_criterion(scree_reader *reader, scree_place place, const scree_statement *s)
