@@ -13,6 +13,7 @@
 #include "state/periodic.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Interior angle of the loop at place k, 0 to 2 pi.
@@ -53,27 +54,54 @@ static void edges_at(const scree_state *state, size_t triangle, int c, scree_vec
     memcpy(last, corner[(c + 2) % 3], sizeof corner[0]);
 }
 
+/// A triangle of the hull, to be put into the order of its nodes.
+typedef struct placed_triangle {
+    uint32_t node[3];
+    uint32_t triangle;
+} placed_triangle;
+
+static int compare_nodes(const void *a, const void *b)
+{
+    const placed_triangle *p = a, *q = b;
+    for (int c = 0; c < 3; c++)
+        if (p->node[c] != q->node[c]) return p->node[c] < q->node[c] ? -1 : 1;
+    return 0;
+}
+
+/// Triangles in an order that follows from their nodes alone: sums at a node have the same bits in whatever order the
+/// hull has them.
+static scree_status order_triangles(const scree_hull *hull, placed_triangle **order, scree_error *error)
+{
+    scree_status status = scree_allocate(order, hull->triangle_count + 1, sizeof **order, error);
+    for (size_t t = 0; t < hull->triangle_count && !status; t++) {
+        memcpy((*order)[t].node, hull->triangle[t], sizeof(*order)[t].node);
+        (*order)[t].triangle = (uint32_t)t;
+    }
+    if (!status) qsort(*order, hull->triangle_count, sizeof **order, compare_nodes);
+    return status;
+}
+
 /// Interior solid angles of the hull at its nodes, modulo 4 pi. The edges at a node cut the unit sphere round it in a
 /// closed polygon; its solid angle is the sum of those of the triangles of its sides and any fixed direction: here that
 /// against the sum of the normals. `inward` is zero before.
-static void add_solid_angles(const scree_state *state, scree_vector *inward, double *angle)
+static void add_solid_angles(const scree_state *state, const placed_triangle *order, scree_vector *inward,
+                             double *angle)
 {
     const scree_hull *hull = scree_hull_of(state);
     scree_vector next, last, area;
-    for (size_t t = 0; t < hull->triangle_count; t++) {
-        edges_at(state, t, 0, next, last);
+    for (size_t k = 0; k < hull->triangle_count; k++) {
+        edges_at(state, order[k].triangle, 0, next, last);
         scree_cross(last, next, area);
-        for (int c = 0; c < 3; c++)
-            for (int k = 0; k < 3; k++) inward[hull->triangle[t][c]][k] += area[k];
+        for (int c = 0; c < 3; c++) scree_along(inward[order[k].node[c]], 1, area, inward[order[k].node[c]]);
     }
     for (size_t node = 0; node < hull->node_count; node++) normalise(inward[node]);
-    for (size_t t = 0; t < hull->triangle_count; t++)
+    for (size_t k = 0; k < hull->triangle_count; k++)
         for (int c = 0; c < 3; c++) {
-            edges_at(state, t, c, next, last);
+            edges_at(state, order[k].triangle, c, next, last);
             normalise(next);
             normalise(last);
             // Seen from inside, the corners of an outward triangle turn clockwise.
-            angle[hull->triangle[t][c]] += solid_angle(inward[hull->triangle[t][c]], last, next);
+            angle[order[k].node[c]] += solid_angle(inward[order[k].node[c]], last, next);
         }
 }
 
@@ -95,10 +123,12 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
     const scree_hull *hull = scree_hull_of(state);
     scree_vector *inward = NULL;
     double *angle = NULL;
-    scree_status status = scree_allocate(&inward, hull->node_count, sizeof *inward, error);
+    placed_triangle *order = NULL;
+    scree_status status = order_triangles(hull, &order, error);
+    if (!status) status = scree_allocate(&inward, hull->node_count, sizeof *inward, error);
     if (!status) status = scree_allocate(&angle, hull->node_count, sizeof *angle, error);
     if (!status) {
-        add_solid_angles(state, inward, angle);
+        add_solid_angles(state, order, inward, angle);
         *solid = solid_of_all(state);
         scree_integer_sum outside = {0};
         while (scree_comm_sum_next(state, &outside, 1))
@@ -113,6 +143,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
     }
     scree_release(&inward);
     scree_release(&angle);
+    scree_release(&order);
     return status;
 }
 
