@@ -99,6 +99,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
         if (method->set_moving) method->set_moving(model, stage, state);
         if (method->remember) status = method->remember(model, stage, &packing, state, error);
     }
+    for (size_t row = 0; row < state->count && !status; row++) scree_body_refer(state, row);
     scree_packing_destroy(&packing);
     if (status) scree_state_destroy(state);
     return status;

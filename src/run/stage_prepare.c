@@ -50,7 +50,6 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_state prepared;
     scree_status status = scree_prepare(&s->model, scree_stage_config(s), &prepared, error);
     if (status) return status;
-    for (size_t row = 0; row < prepared.count; row++) scree_body_refer(&prepared, row);
     prepared.stage = s->state.stage;
     prepared.spent = s->state.spent;
     scree_state_destroy(&s->state);
