@@ -10,7 +10,6 @@
 
 #define LEAST_INSIDE 0.5
 #define CORE         0.25
-#define FLANK        0.5
 #define UPPER        0.5
 
 #define REGIONS(name, unit, of)                                                                                        \
@@ -117,11 +116,11 @@ static bool is_of(const scree_average_table *table, size_t row, region where)
     case CORE_OF:
         return lowest && fabs(place) <= CORE;
     case FLANK_OF:
-        return lowest && fabs(place) >= FLANK;
+        return lowest && fabs(place) >= SCREE_INCREMENT_FLANK;
     case LEFT:
-        return lowest && place <= -FLANK;
+        return lowest && place <= -SCREE_INCREMENT_FLANK;
     case RIGHT:
-        return lowest && place >= FLANK;
+        return lowest && place >= SCREE_INCREMENT_FLANK;
     case OUTER:
         return lowest && fabs(place) > CORE;
     case UPPER_CORE:
@@ -318,7 +317,7 @@ static double deviation(const finding *f, int definition, region where)
 /// The dip of the vertical strain of a definition along the lowest cut, which `sign` makes a pressure.
 static scree_status find_strain_dip(finding *f, int definition, double sign, scree_error *error)
 {
-    const double reach = definition == SCREE_AVERAGE_DIFFERENCE ? FLANK : 1;
+    const double reach = scree_increment_reach(definition);
     double profile[SCREE_INCREMENT_POINTS];
     scree_average_dip dip;
     for (size_t k = 0; k < SCREE_INCREMENT_POINTS; k++) {

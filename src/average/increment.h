@@ -10,15 +10,16 @@
 /// fabric alike, so that a part of the first is geometry.
 ///
 /// Dips of strains compare the axis with all elements of the lowest cut; that of the difference quotient with its inner
-/// half alone (FLANK), since near the surface, where the neighbours of an element reach out of the pile, R calls what
-/// it gives artefacts (3.6.1). The distribution of the coordination number is that over the elements of all cuts, each
-/// with the mean of the grains whose centres lie in it (R 3.5, figure 3.24).
+/// half alone (SCREE_INCREMENT_FLANK), since near the surface, where the neighbours of an element reach out of the
+/// pile, R calls what it gives artefacts (3.6.1). The distribution of the coordination number is that over the elements
+/// of all cuts, each with the mean of the grains whose centres lie in it (R 3.5, figure 3.24).
 ///
 /// Source: P. Roul, PhD thesis, Magdeburg 2009, 2.6.2, 3.6 - 3.10. Units: SI. Cost: that of two tables of cuts.
 #ifndef SCREE_AVERAGE_INCREMENT_H
 #define SCREE_AVERAGE_INCREMENT_H
 
 #include "average/cuts.h"
+#include "average/strain.h"
 #include "module/result.h"
 
 enum {
@@ -27,6 +28,15 @@ enum {
     SCREE_INCREMENT_USUAL = 150, ///< grains of an element,
     SCREE_INCREMENT_SHARE = 10   ///< in small samples the whole over this
 };
+
+#define SCREE_INCREMENT_FLANK 0.5 /* over the half width: farther from the axis lies the flank */
+
+/// How far from the axis, over the half width, a dip of the vertical strain of this definition (scree_average_strains)
+/// looks.
+static inline double scree_increment_reach(int definition)
+{
+    return definition == SCREE_AVERAGE_DIFFERENCE ? SCREE_INCREMENT_FLANK : 1;
+}
 
 enum { SCREE_INCREMENT_ROWS = 66 };
 extern const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS];

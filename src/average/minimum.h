@@ -4,9 +4,8 @@
 /// M(j): mean over the heaps of the pressure at place j of a cut, -1 to 1 over the half width from the axis of each; a:
 /// the mean of their apexes, in the same unit; rim(j): the smaller one of the largest values of M to the left and to
 /// the right of j. The minimum is the place that lies deepest below its rim,
-///     place    j with the largest rim(j) - M(j), less a: below 0 to the left of the apex; NAN where no place lies
-///     below
-///              its rim, as under a dome
+///     place    j with the largest rim(j) - M(j), less a: below 0 to the left of the apex; NAN where no place
+///              lies below its rim, as under a dome
 ///     depth    1 - M / rim there; 0 without a minimum. Never negative: in noise there is always some minimum, as there
 ///              always is a dip
 ///     highest  place of the largest of M, less a

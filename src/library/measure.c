@@ -2,6 +2,7 @@
 #include "library/measure.h"
 
 #include "average/elastic_ensemble.h"
+#include "average/increment.h"
 #include "io/run_directory.h"
 
 #include <limits.h>
@@ -12,8 +13,6 @@
 enum { BANDS = 60000 };   ///< numbers of a table that has bands; each is resampled
 #define LEAST_INSIDE 0.5  /* of an element, where strains are looked at: outside of the surface there are none */
 #define SIGNIFICANT  0.05 /* largest p of a dip that is one */
-/* over the half width: beyond, difference quotients are what R calls artefacts (average/increment.h) */
-#define DIFFERENCE_REACH 0.5
 
 // ---- ensembles ---------------------------------------------------------------------------------------------------
 
@@ -138,9 +137,8 @@ static scree_status find_strain_dips(const measure_tables *each, size_t count, c
     scree_status status = SCREE_OK;
     for (int k = 0; k < SCREE_AVERAGE_STRAINS && mean != SIZE_MAX && !status; k++) {
         char name[32];
-        profiles of = {.least = LEAST_INSIDE,
-                       .reach = k == SCREE_AVERAGE_DIFFERENCE ? DIFFERENCE_REACH : 1,
-                       .sign = values->value[mean] < 0 ? -1 : 1};
+        profiles of = {
+            .least = LEAST_INSIDE, .reach = scree_increment_reach(k), .sign = values->value[mean] < 0 ? -1 : 1};
         (void)snprintf(name, sizeof name, "%s_zz", scree_average_strain_names[k]);
         of.column = scree_average_table_find(cuts, name);
         (void)snprintf(name, sizeof name, "%s_yy", scree_average_strain_names[k]);
