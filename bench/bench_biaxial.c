@@ -1,7 +1,7 @@
 /// Particle-steps per second of the stepping loop (integrator, neighbour list, contact forces), in two settings:
 ///
 /// 1. a settled biaxial cell: drop-and-roll packing of the built-in case between four plates that close around it and
-///    are then held; both laws, ledger on and off, one and more threads; beside it, in turn and when its command is
+///    are then held; both laws, one and more threads; beside it, in turn and when its command is
 ///    given, LAMMPS on the same configuration (bench/peers/lammps_biaxial.in);
 /// 2. large assemblies, 10,000 to 1,000,000 discs: a hexagonal lattice of slightly unequal discs under pressure.
 ///
@@ -150,11 +150,10 @@ static void make_lattice(sample *s, const char *law, long count)
 }
 
 /// Best particle-steps per second of several runs.
-static double measure(sample *s, int threads, bool ledger)
+static double measure(sample *s, int threads)
 {
     double best = 0;
     s->work.threads = threads;
-    s->work.ledger = ledger;
     step(s);
     for (int run = 0; run < RUNS; run++) {
         double begin = seconds(threads), elapsed = 0;
@@ -175,14 +174,13 @@ static double bytes_a_body(const sample *s)
 
 static void print_head(void)
 {
-    printf("%-18s %8s %8s %7s %9s %9s %7s %8s\n", "law", "discs", "contacts", "threads", "ledger", "Mps/s", "ns",
-           "bytes");
+    printf("%-18s %8s %8s %7s %9s %7s %8s\n", "law", "discs", "contacts", "threads", "Mps/s", "ns", "bytes");
 }
 
-static void print_line(const sample *s, const char *law, int threads, bool ledger, double rate)
+static void print_line(const sample *s, const char *law, int threads, double rate)
 {
-    printf("%-18s %8zu %8.2f %7d %9s %9.2f %7.1f %8.0f\n", law, s->state.count, contacts_a_body(s), threads,
-           ledger ? "on" : "off", 1e-6 * rate, 1e9 / rate, bytes_a_body(s));
+    printf("%-18s %8zu %8.2f %7d %9.2f %7.1f %8.0f\n", law, s->state.count, contacts_a_body(s), threads, 1e-6 * rate,
+           1e9 / rate, bytes_a_body(s));
     (void)fflush(stdout);
 }
 
@@ -246,12 +244,12 @@ static void compare_with_peer(sample *s, const options *o)
     (void)snprintf(path, sizeof path, "%s/cell.data", o->folder);
     export_data(s, path);
     for (int turn = 0; turn < 3; turn++) {
-        ours = fmax(ours, measure(s, 1, true));
+        ours = fmax(ours, measure(s, 1));
         theirs = fmax(theirs, run_peer(s, o, 4000000 / (long)s->state.count));
     }
     if (theirs > 0)
-        printf("%s: %.2f million particle-steps per second; ratio %.2f (hertz_mindlin, ledger on, one core, in turn)\n",
-               o->peer, 1e-6 * theirs, ours / theirs);
+        printf("%s: %.2f million particle-steps per second; ratio %.2f (hertz_mindlin, one core, in turn)\n", o->peer,
+               1e-6 * theirs, ours / theirs);
     else
         printf("%s: no result\n", o->peer);
 }
@@ -264,9 +262,8 @@ static void bench_cell(const options *o)
     for (int law = 0; law < 2; law++) {
         sample s = {0};
         make_cell(&s, laws[law], o->count);
-        for (int ledger = 1; ledger >= 0; ledger--)
-            for (int threads = 1; threads <= scree_processor_count() && threads <= 4; threads *= 2)
-                print_line(&s, laws[law], threads, ledger, measure(&s, threads, ledger));
+        for (int threads = 1; threads <= scree_processor_count() && threads <= 4; threads *= 2)
+            print_line(&s, laws[law], threads, measure(&s, threads));
         if (law == 0 && o->peer) compare_with_peer(&s, o);
         close_sample(&s);
     }
@@ -280,9 +277,9 @@ static void bench_large(void)
     for (long count = 10000; count <= 1000000; count *= 10) {
         sample s = {0};
         make_lattice(&s, "hertz_mindlin", count);
-        rate = measure(&s, 1, true);
+        rate = measure(&s, 1);
         if (count == 10000) smallest = rate;
-        print_line(&s, "hertz_mindlin", 1, true, rate);
+        print_line(&s, "hertz_mindlin", 1, rate);
         close_sample(&s);
     }
     printf("cost of a particle-step at 1,000,000 discs over that at 10,000: %.2f\n", smallest / rate);

@@ -41,8 +41,7 @@ static contact_evaluation evaluate(const scree_model *model, const scree_state *
     const contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
     const contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
     const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
-    return contact_evaluate_again(model, state, work->ledger || state->moment, &first, &second, contact_own_of(work, p),
-                                  &memory);
+    return contact_evaluate_again(model, state, &first, &second, contact_own_of(work, p), &memory);
 }
 
 static void find_forces(const scree_model *model, const scree_state *state, const scree_work *work,

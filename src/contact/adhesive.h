@@ -43,8 +43,7 @@ enum { ADHESIVE_ROLLING = 1, ADHESIVE_CONSTANT = 2 };
 /// Laws without a neck remember the same, so that beginning and end are known.
 #define ADHESIVE_TRAITS(...)                                                                                           \
     {                                                                                                                  \
-        .remembers = true, .for_ledger = {0xc, 0}, .keeps_last_force = {false, true}, .displacement = true,            \
-        .pulls = true, .wide = true, __VA_ARGS__                                                                       \
+        .keeps_last_force = {false, true}, .displacement = true, .pulls = true, .wide = true, __VA_ARGS__              \
     }
 
 /// F_c over B^2 N R_eff.
@@ -140,10 +139,14 @@ SCREE_INLINE law_force adhesive_contact(bool jkr, variant v, const law_constants
         *after = (law_memory){.value = {displacement.x, displacement.y, displacement.z, tangential_stiffness},
                               .last = {damping, dashpot.x, dashpot.y, dashpot.z}};
     }
+    const lanes way = m->approach * settings->step;
+    const adhesive_state last = adhesive_at(jkr, stiffness, root, inverse_radius, pull, a_before);
+    const lanes lost = adhesive_snap(&now, &last, a, a_before, m->overlap, way);
     law_force f = {
         .normal = normal,
         .tangential = vector_opposite(count, slip.resistance),
         .couple = vector_none(),
+        .damping = 0.5 * ((damping + damping_before) * way + slip.damping + lost),
         .friction = 0.5 * slip.friction,
         .stiffness = 0.5 * slip.stiffness,
         .elastic_normal = now.energy,
@@ -151,12 +154,6 @@ SCREE_INLINE law_force adhesive_contact(bool jkr, variant v, const law_constants
         .adhesion = adhesion,
         .in_contact = holds,
     };
-    if (v.ledger) {
-        const lanes way = m->approach * settings->step;
-        const adhesive_state last = adhesive_at(jkr, stiffness, root, inverse_radius, pull, a_before);
-        const lanes lost = adhesive_snap(&now, &last, a, a_before, m->overlap, way);
-        f.damping = 0.5 * ((damping + damping_before) * way + slip.damping + lost);
-    }
     if (v.option & ADHESIVE_CONSTANT) resist_constantly(springs, constants, m, settings->step, load, before, after, &f);
     if (v.option & ADHESIVE_ROLLING)
         resist_turning(springs, constants, m, settings->step, tangential_stiffness, eta, load, holds, before, after,

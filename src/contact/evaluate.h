@@ -16,7 +16,7 @@ typedef struct quanta {
 typedef struct contact_quanta {
     quanta force, torque_first, torque_second;
     lanes_bits count;                        ///< 1 where touching
-    lanes_bits damping, friction, stiffness; ///< zero without a ledger
+    lanes_bits damping, friction, stiffness; ///< of the ledger
     lanes_bits in_range;                     ///< mask: the force is a number below the limit
     lanes_bits normal;                       ///< the same force along n
     quanta tangential;                       ///< and in the tangent plane (2D: along t)
@@ -135,7 +135,6 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
     const int dimension = v.dimension, count = tangential_count(dimension);
     const bool pulls = law_traits(v)->pulls;
     law_force f = contact_law(v, constants, settings, m, touching, before, after);
-    law_forget(v, after);
     vector moment = moment_of(dimension, m->normal, f.tangential), force = force_on_first(dimension, &f, m->normal);
     contact_quanta q = {
         .straining =
@@ -146,6 +145,9 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .count = -touching,
         .normal = lanes_fixed(f.normal, scale->inverse_force),
         .tangential = quanta_of(count, f.tangential, scale->inverse_force),
+        .damping = energy_quanta(v, f.damping, scale->inverse_damping),
+        .friction = energy_quanta(v, f.friction, scale->inverse_friction),
+        .stiffness = energy_quanta(v, f.stiffness, scale->inverse_friction),
         .in_range = lanes_at_or_below((pulls ? lanes_abs(f.normal) : f.normal) + vector_extent(count, f.tangential),
                                       lanes_all(scale->force_limit)),
     };
@@ -163,11 +165,6 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);
         q.torque_second = quanta_sum(q.torque_second, quanta_opposite(couple));
-    }
-    if (v.ledger) {
-        q.damping = energy_quanta(v, f.damping, scale->inverse_damping);
-        q.friction = energy_quanta(v, f.friction, scale->inverse_friction);
-        q.stiffness = energy_quanta(v, f.stiffness, scale->inverse_friction);
     }
     return q;
 }

@@ -64,7 +64,6 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .state = state,
         .variant = {.dimension = state->dimension,
                     .many_materials = model->material_count + model->added_materials > 1,
-                    .ledger = work->ledger || state->moment,
                     .moments = state->moment != NULL},
         .row = state->row,
         .turn = state->turn,
@@ -300,7 +299,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     contact_job job = describe_job(model, state, work);
     const contact_totals totals = evaluate(&job, state, work);
     double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
-    if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
+    settle_ledger(&state->ledger, &totals, &job.scale, plates);
     work->settle = totals.settle;
     state->largest_overlap = fmax(totals.largest_overlap, scree_sleep_of(state)->overlap);
     scree_persistent(state)->largest_deformation = totals.largest_deformation;

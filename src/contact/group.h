@@ -176,7 +176,6 @@ SCREE_INLINE law_memory load_memory(const contact_job *job, variant v, const gro
     law_memory m = {0};
     const double *row[SCREE_LANES];
     const float *single[SCREE_LANES];
-    if (!law_remembers(v)) return m;
     LANE_LOOP row[k] = job->history[g->pair[k]].value;
     keep_columns(m.value, g->present, columns_load(row));
     if (law_keeps_last_force(v)) {
@@ -196,7 +195,6 @@ SCREE_INLINE law_memory load_memory(const contact_job *job, variant v, const gro
 SCREE_INLINE void store_memory(const contact_job *job, variant v, const group *g, const law_memory *m)
 {
     row4 row[SCREE_LANES];
-    if (!law_remembers(v)) return;
     columns_to_rows((columns){m->value[0], m->value[1], m->value[2], m->value[3]}, row);
     LANE_LOOP *(row4 *)job->history[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
     if (law_keeps_last_force(v)) {
@@ -266,7 +264,8 @@ SCREE_INLINE void kinematics_lead(variant v, const contact_job *job, const group
 {
     if (!job->lead) return;
     const motion_at_n one = motion_at_end(v.dimension, first, load_predicted(v.dimension, job->lead, job->first, g));
-    const motion_at_n other = motion_at_end(v.dimension, second, load_predicted(v.dimension, job->lead, job->second, g));
+    const motion_at_n other =
+        motion_at_end(v.dimension, second, load_predicted(v.dimension, job->lead, job->second, g));
     kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
 }
 

@@ -74,8 +74,8 @@ static inline void brilliantov_numbers(double time, double exponent, double velo
         row(hertz_brilliantov, 1, many)
 
 static const scree_law_traits hertz_brilliantov_traits[] = {
-    [0] = {.for_ledger = {0xe, 0x8}},
-    [BRILLIANTOV_IMPLICIT] = {.remembers = true, .for_ledger = {0xe, 0x8}, .looks_ahead = true},
+    [0] = {.looks_ahead = false},
+    [BRILLIANTOV_IMPLICIT] = {.looks_ahead = true},
 };
 
 /// -magnitude along the slip.

@@ -45,20 +45,19 @@
         row(hertz_mindlin, 2, many) row(hertz_mindlin, 3, many) row(hertz_mindlin, 4, many)                            \
             row(hertz_mindlin, 5, many)
 
-/// In 2D the history holds what the ledger reads, too; k_t is for the ledger alone where springs are not rescaled.
-#define MINDLIN_TRAITS(ledger_2d, ledger_3d, ...)                                                                      \
+/// In 2D the history holds what the ledger reads, too.
+#define MINDLIN_TRAITS(...)                                                                                            \
     {                                                                                                                  \
-        .remembers = true, .for_ledger = {ledger_2d, ledger_3d}, .keeps_last_force = {false, true},                    \
-        .displacement = true, __VA_ARGS__                                                                              \
+        .keeps_last_force = {false, true}, .displacement = true, __VA_ARGS__                                           \
     }
 #define MINDLIN_TURNS .rolling = true, .wide = true
 static const scree_law_traits hertz_mindlin_traits[] = {
-    [0] = MINDLIN_TRAITS(0xe, 0x8),
-    [MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0),
-    [MINDLIN_ROLLING] = MINDLIN_TRAITS(0xe, 0x8, MINDLIN_TURNS),
-    [MINDLIN_ROLLING | MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0, MINDLIN_TURNS),
-    [MINDLIN_CONSTANT] = MINDLIN_TRAITS(0xe, 0x8, MINDLIN_TURNS),
-    [MINDLIN_CONSTANT | MINDLIN_RESCALED] = MINDLIN_TRAITS(0xc, 0, MINDLIN_TURNS),
+    [0] = MINDLIN_TRAITS(),
+    [MINDLIN_RESCALED] = MINDLIN_TRAITS(),
+    [MINDLIN_ROLLING] = MINDLIN_TRAITS(MINDLIN_TURNS),
+    [MINDLIN_ROLLING | MINDLIN_RESCALED] = MINDLIN_TRAITS(MINDLIN_TURNS),
+    [MINDLIN_CONSTANT] = MINDLIN_TRAITS(MINDLIN_TURNS),
+    [MINDLIN_CONSTANT | MINDLIN_RESCALED] = MINDLIN_TRAITS(MINDLIN_TURNS),
 };
 
 SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, const law_settings *settings,

@@ -17,8 +17,7 @@ typedef struct variant {
     int law;         ///< slot of its module
     unsigned option; ///< bits whose meaning the law declares
     bool many_materials;
-    bool ledger;
-    bool moments; ///< of contact forces are summed; only with the ledger
+    bool moments; ///< of contact forces are summed
     int geometry; ///< its number (contact/geometry.h)
 } variant;
 

@@ -26,12 +26,6 @@ SCREE_INLINE law_settings law_settings_get(const scree_law_use *law, double step
     return settings;
 }
 
-/// Whether an evaluation reads and writes history rows.
-SCREE_INLINE bool law_remembers(variant v)
-{
-    return v.ledger || law_traits(v)->remembers;
-}
-
 /// Whether it needs kinematics_predict.
 SCREE_INLINE bool law_predicts(variant v)
 {
@@ -41,7 +35,7 @@ SCREE_INLINE bool law_predicts(variant v)
 /// Whether it reads and writes last_force rows.
 SCREE_INLINE bool law_keeps_last_force(variant v)
 {
-    return v.ledger && law_traits(v)->keeps_last_force[v.dimension - 2];
+    return law_traits(v)->keeps_last_force[v.dimension - 2];
 }
 
 /// Whether it reads and writes rolling rows, and gives couples.
@@ -72,17 +66,6 @@ SCREE_INLINE bool law_deforms(variant v)
 SCREE_INLINE bool law_is_wide(variant v)
 {
     return law_traits(v)->wide;
-}
-
-/// Without a ledger, what only the ledger needs is not kept, so that histories do not depend on it.
-SCREE_INLINE void law_forget(variant v, law_memory *after)
-{
-    if (v.ledger) return;
-    const lanes none = lanes_all(0);
-    const unsigned forgotten = law_traits(v)->for_ledger[v.dimension - 2];
-    for (unsigned k = 0; k < 4; k++)
-        if (forgotten >> k & 1) after->value[k] = none;
-    for (int k = 0; k < 4 && law_rolls(v); k++) after->rolling_last[k] = none;
 }
 
 #define LAW_EVALUATE(law_)                                                                                             \

@@ -100,8 +100,7 @@ typedef struct scree_linear_material {
 
 #define LINEAR_TRAITS(...)                                                                                             \
     {                                                                                                                  \
-        .remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true,          \
-        .wide = true, __VA_ARGS__                                                                                      \
+        .keeps_last_force = {false, true}, .displacement = true, .wide = true, __VA_ARGS__                             \
     }
 static const scree_law_traits linear_traits[] = {
     [0] = LINEAR_TRAITS(),

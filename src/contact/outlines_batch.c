@@ -165,10 +165,10 @@ SCREE_INLINE void run_outlines(contact_job *given, variant v)
 }
 
 #define OUTLINES(law_, moments_)                                                                                       \
-    run_outlines(job, (variant){2, SCREE_SLOT_##law_, 0, true, true, moments_, GEOMETRY_outlines})
+    run_outlines(job, (variant){2, SCREE_SLOT_##law_, 0, true, moments_, GEOMETRY_outlines})
 
 #define PAIRS_OF_LAW(law_)                                                                                             \
-    if (law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == GEOMETRY_outlines && v.ledger) {         \
+    if (law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == GEOMETRY_outlines) {                     \
         if (v.moments)                                                                                                 \
             OUTLINES(law_, true);                                                                                      \
         else                                                                                                           \
@@ -180,5 +180,4 @@ void SCREE_KERNEL_NAME(scree_outlines)(contact_job *job)
 {
     const variant v = job->variant;
     SCREE_LAWS(PAIRS_OF_LAW)
-    contact_pairs_reference(job); // without a ledger
 }

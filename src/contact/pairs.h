@@ -9,7 +9,7 @@
 /// Compiled once for each dimension (pairs_2d_batch.c, pairs_3d_batch.c) and instruction set (SCREE_ISA, two,
 /// four or eight lanes); inside, once for each variant, by always-inline functions that are called with constants.
 /// Cost: two cache lines of bodies, two sum rows and one history row a contact; in 3D two rows of spins, two of torques
-/// and, with the ledger, a last_force row more.
+/// and a last_force row more.
 #ifndef SCREE_CONTACT_PAIRS_H
 #define SCREE_CONTACT_PAIRS_H
 
@@ -149,17 +149,15 @@ SCREE_INLINE void run(contact_job *given, variant v)
 #define DEFORMS(law, option) law##_traits[option].deforms
 
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
-/// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger; always
-/// where bodies deform. Of geometries in lanes there is one, the first of the table; one by one none is here.
+/// of the compiler's optimisations. Moments are summed by the kernels for many materials alone; always where bodies
+/// deform. Of geometries in lanes there is one, the first of the table; one by one none is here.
 #define VARIANT(name, dimension, law, option, many_materials)                                                          \
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
         if (DEFORMS(law, option) || (many_materials && job->variant.moments))                                          \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true, IN_LANES});            \
-        else if (job->variant.ledger)                                                                                  \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false, IN_LANES});           \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, IN_LANES});                  \
         else                                                                                                           \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, false, IN_LANES});          \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, IN_LANES});                 \
     }
 
 /// The geometry that kernels in lanes are for.

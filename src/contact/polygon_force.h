@@ -43,8 +43,7 @@ typedef struct scree_polygon_material {
 
 #define POLYGON_TRAITS                                                                                                 \
     {                                                                                                                  \
-        .remembers = true, .for_ledger = {0xe, 0xe}, .keeps_last_force = {true, true}, .displacement = true,           \
-        .wide = true, .areas = true                                                                                    \
+        .keeps_last_force = {true, true}, .displacement = true, .wide = true, .areas = true                            \
     }
 
 /// What a direction is kept as, one number in -2 .. 2: the way round the square |x| + |y| = 1 from (1, 0), which needs

@@ -78,8 +78,8 @@ SCREE_INLINE void evaluate_range(contact_job *job, variant v)
 /// The hot loop of that geometry, with law and geometry as constants; outlines have one of their own
 /// (outlines_batch.c).
 #define PAIRS_OF_LAW(law_)                                                                                             \
-    if (!law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == GAINS && v.ledger) {                    \
-        evaluate_range(job, (variant){2, SCREE_SLOT_##law_, v.option, true, true, v.moments, GAINS});                  \
+    if (!law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == GAINS) {                                \
+        evaluate_range(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.moments, GAINS});                        \
         return;                                                                                                        \
     }
 
@@ -139,11 +139,11 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
 
 #define WALLS_OF_LAW(law_, geometry_)                                                                                  \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 3)                                                                \
-        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, geometry_}, wall,     \
-                       pairs, row_begin, row_end);                                                                     \
+        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.moments, geometry_}, wall, pairs,        \
+                       row_begin, row_end);                                                                            \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 2)                                                                \
-        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, geometry_}, wall,     \
-                       pairs, row_begin, row_end);
+        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.moments, geometry_}, wall, pairs,        \
+                       row_begin, row_end);
 
 /// Of geometries of one by one, apart from that in lanes, whose walls are as fast as if there were no others.
 #define WALLS_ONE_BY_ONE(law_) WALLS_OF_LAW(law_, v.geometry)

@@ -44,7 +44,6 @@ static bool evaluate_standing_wall(const scree_model *model, const scree_state *
                        .law = law->law,
                        .option = law->option,
                        .many_materials = true,
-                       .ledger = true,
                        .geometry = model->geometry};
     kinematics m = kinematics_of_surface(work->wall_set, work->primitive_pairs.wall[touch->pair], v, &group->body,
                                          &touch->closest, false, state->step_size);
@@ -101,7 +100,7 @@ static void move_pair(const scree_model *model, scree_state *state, scree_work *
     const uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
     const contact_body one = contact_body_get(state, first), other = contact_body_get(state, second);
     const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
-    const contact_evaluation e = contact_evaluate_again(model, state, true, &one, &other, NULL, &memory);
+    const contact_evaluation e = contact_evaluate_again(model, state, &one, &other, NULL, &memory);
     add_to_one(state, first, &e.quanta, true, !rests);
     add_to_one(state, second, &e.quanta, false, !rests);
     if (rests) forget_dashpots(state->dimension, &memory);

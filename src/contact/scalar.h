@@ -96,7 +96,7 @@ static inline law_memory memory_get(variant v, const memory_rows *rows)
 
 static inline void memory_set(variant v, const memory_rows *rows, const law_memory *memory)
 {
-    for (int k = 0; k < 4 && law_remembers(v); k++) {
+    for (int k = 0; k < 4; k++) {
         rows->history->value[k] = memory->value[k];
         if (law_keeps_last_force(v)) rows->last_force->value[k] = (float)memory->last[k];
         if (law_rolls(v)) rows->rolling->value[k] = memory->rolling[k];

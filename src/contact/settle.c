@@ -90,8 +90,7 @@ static contact_evaluation evaluate(const scree_model *model, const scree_state *
     const contact_body first = contact_body_get(state, work->pairs.first[p]);
     const contact_body second = contact_body_get(state, work->pairs.second[p]);
     const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
-    return contact_evaluate_again(model, state, work->ledger || state->moment, &first, &second, &work->pairs.own[p],
-                                  &memory);
+    return contact_evaluate_again(model, state, &first, &second, &work->pairs.own[p], &memory);
 }
 
 static void describe(const scree_state *state, const scree_work *work, const contact_evaluation *e,

@@ -147,16 +147,15 @@ static contact_moment moment_of_branch(const scree_state *state, const contact_s
     return (contact_moment){branch.along, contact_moment_factor(state->stretch != NULL, scale, branch.arm)};
 }
 
-contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, bool ledger,
-                                          const contact_body *first, const contact_body *second,
-                                          const scree_member_row *own, const memory_rows *memory)
+contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, const contact_body *first,
+                                          const contact_body *second, const scree_member_row *own,
+                                          const memory_rows *memory)
 {
     const int dimension = state->dimension;
     contact_evaluation e = {.first = contact_body_lane(dimension, first),
                             .second = contact_body_lane(dimension, second)};
     const pair_law of = law_of_pair(model, own, &e.first, &e.second);
     e.variant = variant_of(model, dimension, of.law);
-    e.variant.ledger = ledger;
     e.kinematics = geometry_kinematics(e.variant, &e.first, &e.second, state->step_size);
     kinematics_lead(e.variant, &e.kinematics, &e.first, &e.second);
     if (state->stretch) expand(state, &e.kinematics, first, second);

@@ -66,9 +66,9 @@ typedef struct contact_evaluation {
 
 /// Evaluates the law of a pair that is taken to touch, or is held, with a step of zero. Of one without a bond, or whose
 /// bond has just broken, springs come out as long as its friction allows.
-contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, bool ledger,
-                                          const contact_body *first, const contact_body *second,
-                                          const scree_member_row *own, const memory_rows *memory);
+contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, const contact_body *first,
+                                          const contact_body *second, const scree_member_row *own,
+                                          const memory_rows *memory);
 
 /// Its part in the energy of the springs [J].
 static inline double contact_elastic_energy(const contact_evaluation *e)

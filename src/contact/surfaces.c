@@ -380,14 +380,13 @@ static bool holds_memory(const group *g)
 /// In space, where it pays, the law is known.
 #define GROUP_OF_LAW(law_)                                                                                             \
     if (v.dimension == 3 && v.law == SCREE_SLOT_##law_)                                                                \
-        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, state,   \
-                       &g);
+        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.moments, v.geometry}, state, &g);
 
 /// In the plane geometries of one by one stand apart from that in lanes, which is as fast as if there were no others.
 __attribute__((noinline)) static void evaluate_one_by_one(contact_job *job, const scree_state *state, group *g)
 {
     const variant v = job->variant;
-    evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, v.geometry}, state, g);
+    evaluate_group(job, (variant){2, v.law, v.option, true, v.moments, v.geometry}, state, g);
 }
 
 static void evaluate_2d(contact_job *job, const scree_state *state, group *g)
@@ -398,7 +397,7 @@ static void evaluate_2d(contact_job *job, const scree_state *state, group *g)
         evaluate_one_by_one(job, state, g);
         return;
     }
-    evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, geometry}, state, g);
+    evaluate_group(job, (variant){2, v.law, v.option, true, v.moments, geometry}, state, g);
 }
 
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)

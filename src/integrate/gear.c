@@ -329,7 +329,6 @@ static void share_second(void *argument, int index, int count)
 /// The row `scheme` of the ledger. The correction itself waits for the next step.
 static void second(const scree_model *model, scree_state *state, scree_work *work)
 {
-    if (!work->ledger) return;
     gear_task task = {.model = model, .state = state};
     task.moving = scree_moving_rows(state, &task.count);
     const gear_row *row = own_state(state)->row;

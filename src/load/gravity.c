@@ -81,7 +81,6 @@ void scree_gravity_enter(scree_model *model, scree_state *state, bool told)
 static void tell_half(const scree_context *c, const double next[3])
 {
     double change[3];
-    if (!c->work->ledger) return;
     scree_subtract(next, c->gravity, change);
     if (scree_dot(change, change) > 0) c->state->ledger.gravity += 0.5 * moment(c->state, change);
 }

@@ -39,18 +39,16 @@ typedef struct scree_law_use {
 
 /// What the rest of the program must know of a law under one of its options. All of it is constant in the kernels.
 typedef struct scree_law_traits {
-    bool remembers;              ///< history rows live from step to step; else the ledger alone needs them
-    unsigned char for_ledger[2]; ///< in 2D, 3D: bits of the values of the history that nothing but the ledger reads
-    bool keeps_last_force[2];    ///< in 2D, 3D: last_force rows beside the history, for the ledger
-    bool displacement;           ///< the history begins with a displacement in the tangent plane, which walls turn
-    bool rolling;                ///< passes couples on: rolling rows
-    bool looks_ahead;            ///< needs kinematics_predict
-    bool pulls;                  ///< the normal force may be negative
-    bool necks;                  ///< a contact may outlast the touch (law_force.in_contact); it remembers that it does
-    bool holds;                  ///< of pairs of the persistent list: no distance test, constants of the pair's own
-    bool wide;                   ///< reads the second half of the constants
-    bool areas;                  ///< forces follow from the area that bodies share: of polygons, in 2D
-    bool deforms; ///< overlaps follow the strains of the bodies (state->stretch), whose moments are summed
+    bool keeps_last_force[2]; ///< in 2D, 3D: last_force rows beside the history, for the ledger
+    bool displacement;        ///< the history begins with a displacement in the tangent plane, which walls turn
+    bool rolling;             ///< passes couples on: rolling rows
+    bool looks_ahead;         ///< needs kinematics_predict
+    bool pulls;               ///< the normal force may be negative
+    bool necks;               ///< a contact may outlast the touch (law_force.in_contact); it remembers that it does
+    bool holds;               ///< of pairs of the persistent list: no distance test, constants of the pair's own
+    bool wide;                ///< reads the second half of the constants
+    bool areas;               ///< forces follow from the area that bodies share: of polygons, in 2D
+    bool deforms;             ///< overlaps follow the strains of the bodies (state->stretch), whose moments are summed
 } scree_law_traits;
 
 /// The elastic part of the normal force of two bodies of an effective radius [m]: closed forms of a static or undamped

@@ -124,7 +124,7 @@ scree_status scree_birth_append(const scree_model *model, scree_state *state, co
     memcpy(state->sampled_velocity[*row], birth->velocity, sizeof(scree_vector));
     scree_births_of(state)->time[*row] = scree_state_time(state);
     note_speed(state, *row);
-    if (work->ledger) account_for(model, state, work, *row, birth);
+    account_for(model, state, work, *row, birth);
     return SCREE_OK;
 }
 

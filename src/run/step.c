@@ -22,7 +22,7 @@ static scree_status choose_step(const scree_context *c, scree_error *error)
     (void)error;
     (void)scree_thread_pool_size_follow(&c->work->size, c->work->pool, c->work->threads);
     c->work->ticks = scree_integrator_choose_step(s->integrator, c->model, c->state, s->stage->loading);
-    if (s->state.step_size != before && c->work->ledger)
+    if (s->state.step_size != before)
         scree_energy_change_step(c->model, c->state, before, s->state.step_size);
     return SCREE_OK;
 }

@@ -21,7 +21,6 @@ scree_status scree_work_create(scree_work *work, const scree_model *model, int t
     memset(work, 0, sizeof *work);
     work->threads = threads > 1 ? threads : 1;
     if (work->threads > SCREE_THREAD_POOL_MOST) work->threads = SCREE_THREAD_POOL_MOST;
-    work->ledger = true;
     work->skin = default_skin * model->mean_radius;
     work->virial_bound = work->motion_quantum = 1; // of no cell, but the same in all processes
     scree_status status = scree_allocate(&work->search, 1, sizeof *work->search, error);

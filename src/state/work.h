@@ -174,7 +174,6 @@ typedef struct scree_work {
     scree_thread_pool_size size; ///< how many of them are worth while now
     scree_thread_pool *pool;     ///< of `threads` members, for loops of some microseconds; made at their first use
     bool settle;                 ///< held pairs break or have parted: their law says so (bond/bond.c)
-    bool ledger;                 ///< dissipated energies are accumulated (default true)
     bool reference_kernel;       ///< use the plain scalar core with runtime arguments (tests)
     int instruction_set;         ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
     uint32_t flags;              ///< SCREE_FLAG_...

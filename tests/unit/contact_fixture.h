@@ -83,7 +83,6 @@ static inline void fixture_create_in(fixture *f, int dimension, law_choice law, 
     if (scree_model_predicts(&f->model)) assert_int_equal(scree_state_predict(&f->state, &error), SCREE_OK);
     f->model.step = step;
     f->work.threads = 1;
-    f->work.ledger = true;
     f->work.valid = true;
     for (size_t k = 0; k < count; k++)
         f->state.row[k] = (scree_row){.radius = 1e-3, .mass = fixture_mass(&f->model, 0, 1e-3)};

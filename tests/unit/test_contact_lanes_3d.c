@@ -14,12 +14,12 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
     (void)unused;
     compare_laws(3);
     for (unsigned option = MINDLIN_ROLLING; option <= (MINDLIN_ROLLING | MINDLIN_RESCALED); option++)
-        compare_ledgers((variant){.dimension = 3, .law = SCREE_SLOT_hertz_mindlin, .option = option});
+        compare_many((variant){.dimension = 3, .law = SCREE_SLOT_hertz_mindlin, .option = option});
     for (unsigned option = MINDLIN_CONSTANT; option <= (MINDLIN_CONSTANT | MINDLIN_RESCALED); option++)
-        compare_ledgers((variant){.dimension = 3, .law = SCREE_SLOT_hertz_mindlin, .option = option});
+        compare_many((variant){.dimension = 3, .law = SCREE_SLOT_hertz_mindlin, .option = option});
     for (unsigned option = 0; option <= ADHESIVE_CONSTANT; option++) {
-        compare_ledgers((variant){.dimension = 3, .law = SCREE_SLOT_hertz_jkr, .option = option});
-        compare_ledgers((variant){.dimension = 3, .law = SCREE_SLOT_hertz_dmt, .option = option});
+        compare_many((variant){.dimension = 3, .law = SCREE_SLOT_hertz_jkr, .option = option});
+        compare_many((variant){.dimension = 3, .law = SCREE_SLOT_hertz_dmt, .option = option});
     }
 }
 

@@ -399,18 +399,16 @@ static void assert_same(const fixture *a, const fixture *b)
 static void kernels_and_threads_give_the_same_bits(void **unused)
 {
     (void)unused;
-    for (int number = 0; number < 8; number++) {
-        const int dimension = 2 + number % 2, materials = 1 + number / 2 % 2;
+    for (int number = 0; number < 4; number++) {
+        const int dimension = 2 + number % 2, materials = 1 + number / 2;
         fixture one, other;
         create_assembly(&one, dimension, materials);
-        one.work.ledger = number / 4;
         one.work.reference_kernel = true;
         sphere_run(&one, 200);
         assert_true(one.state.largest_overlap > 0 && one.work.flags == 0);
         const int sets = scree_contact_instruction_set(0);
         for (int k = 2; k <= sets + 3; k++) {
             create_assembly(&other, dimension, materials);
-            other.work.ledger = one.work.ledger;
             if (k <= sets) other.work.instruction_set = k;
             if (k > sets) other.work.threads = k - sets + 1;
             sphere_run(&other, 200);
