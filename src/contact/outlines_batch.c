@@ -5,7 +5,6 @@
 #define SCREE_MORE_GEOMETRIES(row) row(outlines)
 #include "contact/memory_rows.h"
 #include "contact/pairs.h"
-#include "contact/reference.h"
 #include "shape/polygon_hint.h"
 
 /// Pairs that wait for a whole group.
