@@ -120,7 +120,8 @@ scree_first_peak scree_first_peak_find(const double *value, const double *strain
     return peak;
 }
 
-size_t scree_maxima_count(const double *value, scree_loading_rows rows, double share)
+/// Counts the maxima; the rows of the first two go into `row` (NULL: not wanted).
+static size_t count_maxima(const double *value, scree_loading_rows rows, double share, size_t *row)
 {
     double least = INFINITY, most = -INFINITY;
     for (size_t k = rows.first; k < rows.last; k++) {
@@ -130,22 +131,41 @@ size_t scree_maxima_count(const double *value, scree_loading_rows rows, double s
     double apart = share * (most - least);
     if (!(apart > 0)) return 0;
     // The extreme since the last turn; a turn counts when the curve has come back from it by `apart`.
-    size_t count = 0;
-    double high = value[rows.first], low = high;
+    size_t count = 0, highest = rows.first;
+    double low = value[rows.first];
     bool rose = false;
     for (size_t k = rows.first; k < rows.last; k++) {
-        high = fmax(high, value[k]);
+        if (value[k] > value[highest]) highest = k;
         low = fmin(low, value[k]);
         if (!rose && value[k] >= low + apart) {
             rose = true;
-            high = value[k];
-        } else if (rose && value[k] <= high - apart) {
+            highest = k;
+        } else if (rose && value[k] <= value[highest] - apart) {
+            if (row && count < 2) row[count] = highest;
             rose = false;
             low = value[k];
             count++;
         }
     }
     return count;
+}
+
+size_t scree_maxima_count(const double *value, scree_loading_rows rows, double share)
+{
+    return count_maxima(value, rows, share, NULL);
+}
+
+bool scree_maxima_most(const double *value, scree_loading_rows rows, size_t row[2])
+{
+    double low = 0, high = 1; // shares of the range with two maxima and more, and with fewer
+    while (high - low > 1e-12) {
+        const double share = 0.5 * (low + high);
+        if (count_maxima(value, rows, share, NULL) >= 2)
+            low = share;
+        else
+            high = share;
+    }
+    return count_maxima(value, rows, low, row) >= 2;
 }
 
 bool scree_snapshot_begins_stage(const char *before, const char *now, double strain)

@@ -57,6 +57,9 @@ scree_first_peak scree_first_peak_find(const double *value, const double *strain
 /// Maxima between the ends of a curve that stand out on both sides by at least `share` [1] of its range.
 size_t scree_maxima_count(const double *value, scree_loading_rows rows, double share);
 
+/// Rows of the two such maxima that stand out most, the earlier one first; false where there are not two.
+bool scree_maxima_most(const double *value, scree_loading_rows rows, size_t row[2]);
+
 /// Whether a snapshot of stage `now` at `strain` is the first of its stage, the one before it being of stage `before`:
 /// stages may have the same name, and every one that strains begins with a snapshot at zero.
 bool scree_snapshot_begins_stage(const char *before, const char *now, double strain);

@@ -139,10 +139,14 @@ typedef struct scree_rotation_handed {
 /// Transmission per contact: amount of the body further from the forced one over that of the nearer one, over the
 /// contacts of bodies that count, whose nearer one lies within `cutoff` mean diameters and turns by at least `limit` of
 /// the forced one (what is felt: the decay's); contacts of the forced body, whose spin is prescribed, are left out.
-/// The major direction is that of the largest compression of the sample, from the forces of all its contacts.
+/// The major direction is that of the largest compression of the sample, from the forces of all its contacts. A strong
+/// chain crosses a body where another contact of it bears more than the mean force and is inclined to the branch by
+/// more than 45 degrees (P 4.4: rotations are not propagated across strong force chains).
 typedef struct scree_rotation_transmission {
     scree_rotation_handed strong, weak; ///< contacts that lead outward within 45 degrees: above the mean force, others
     scree_rotation_handed aside;        ///< the rest
+    scree_rotation_handed crossed;      ///< of those that lead outward: to a body that a strong chain crosses
+    scree_rotation_handed open;         ///< the others of them
     scree_rotation_handed by_force[SCREE_ROTATION_FORCES]; ///< all of them, between scree_rotation_force_edges
     scree_rotation_handed by_angle[SCREE_ROTATION_ANGLES]; ///< all, by the angle of the branch to the major direction
     double major[3];                                       ///< unit vector

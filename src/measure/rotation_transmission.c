@@ -1,5 +1,6 @@
 /// What one contact hands on of a rotation: the amount of the body that is further from the forced one over that of the
-/// nearer one, against the force of the contact and its direction. See rotation.h. Cost: O(contacts).
+/// nearer one, against the force of the contact and its direction, and against the chains that cross the body further
+/// out. See rotation.h. Cost: O(contacts), and for each contact within the cut-off that hands on one more look at all.
 #include "measure/measure.h"
 #include "measure/rotation_parts.h"
 
@@ -33,6 +34,8 @@ typedef struct handing {
     double force; ///< over the mean force
     double angle; ///< rad, of the branch to the major direction
     bool outward;
+    size_t outer;        ///< row of the body that is further out
+    scree_vector branch; ///< unit vector to it
 } handing;
 
 /// Sums until `finish`: `low` and `high` hold the sum of squares and nothing.
@@ -83,23 +86,42 @@ static bool look_at(const scree_state *state, const scree_contact *contact, cons
     if (contact->wall || contact->first == l->forced || contact->second == l->forced) return false;
     if (!scree_rotation_counts(state, contact->first) || !scree_rotation_counts(state, contact->second)) return false;
     end inner = end_of(state, contact->first, l->centre), outer = end_of(state, contact->second, l->centre);
+    h->outer = contact->second;
     if (inner.distance > outer.distance) {
         end other = inner;
         inner = outer;
         outer = other;
+        h->outer = contact->first;
     }
     if (!(inner.amount >= l->felt) || !(outer.amount > 0) || inner.distance > l->reach) return false;
-    scree_vector branch, middle;
+    scree_vector middle;
     for (int i = 0; i < 3; i++) {
-        branch[i] = outer.place[i] - inner.place[i];
+        h->branch[i] = outer.place[i] - inner.place[i];
         middle[i] = outer.place[i] + inner.place[i];
     }
-    (void)scree_rotation_normalise(branch);
+    (void)scree_rotation_normalise(h->branch);
     (void)scree_rotation_normalise(middle);
     h->logarithm = log(outer.amount / inner.amount);
-    h->angle = acos(fmin(1, fabs(scree_rotation_dot(branch, major))));
-    h->outward = scree_rotation_dot(branch, middle) >= OUTWARD;
+    h->angle = acos(fmin(1, fabs(scree_rotation_dot(h->branch, major))));
+    h->outward = scree_rotation_dot(h->branch, middle) >= OUTWARD;
     return true;
+}
+
+/// Whether the body further out bears a strong contact across the branch.
+static bool is_crossed(const scree_state *state, const scree_contact_table *table, const handing *h, double mean)
+{
+    for (size_t c = 0; c < table->count; c++) {
+        const scree_contact *other = &table->contact[c];
+        if (other->wall || (other->first != h->outer && other->second != h->outer)) continue;
+        if (!(scree_rotation_force(other) > mean)) continue;
+        scree_vector one, two;
+        scree_body_position(state, other->first, one);
+        scree_body_position(state, other->second, two);
+        for (int i = 0; i < 3; i++) two[i] -= one[i];
+        (void)scree_rotation_normalise(two);
+        if (fabs(scree_rotation_dot(two, h->branch)) < OUTWARD) return true;
+    }
+    return false;
 }
 
 static void sort_in(scree_rotation_transmission *out, const handing *h)
@@ -130,10 +152,13 @@ void scree_rotation_transmission_measure(const scree_model *model, const scree_s
         if (!look_at(state, &table->contact[c], &l, out->major, &h)) continue;
         h.force = scree_rotation_force(&table->contact[c]) / mean;
         sort_in(out, &h);
+        if (h.outward) add(is_crossed(state, table, &h, mean) ? &out->crossed : &out->open, &h);
     }
     finish(&out->strong);
     finish(&out->weak);
     finish(&out->aside);
+    finish(&out->crossed);
+    finish(&out->open);
     for (int k = 0; k < SCREE_ROTATION_FORCES; k++) finish(&out->by_force[k]);
     for (int k = 0; k < SCREE_ROTATION_ANGLES; k++) finish(&out->by_angle[k]);
 }

@@ -9,7 +9,7 @@
 /// of the largest dilation (a curve around zero has many). Without such a fall there is none: a curve that stays
 /// constant has no peak. The dip is the largest fall from there on, over the peak; 0 without a peak. Maxima
 /// (`dilation_maxima`): those with falls of FALL of the range of the curve on both sides (P fig. 3.6: local peaks of
-/// (c)); an end of the curve is none. Cost: O(rows).
+/// (c)); an end of the curve is none. The two that stand out most are told by their strains. Cost: O(rows).
 #include "io/loading_stage.h"
 #include "module/module.h"
 #include "run/conclusion.h"
@@ -53,6 +53,10 @@ static void summarise_dilation(const curve *dilation, scree_summary *summary)
     scree_summary_set_number(summary, "dilation_dip", isnan(peak.dip) ? 0 : peak.dip);
     scree_summary_set_number(summary, "dilation_maxima",
                              (double)scree_maxima_count(dilation->value, dilation->rows, FALL));
+    size_t row[2];
+    const bool two = scree_maxima_most(dilation->value, dilation->rows, row);
+    scree_summary_set_number(summary, "strain_at_earlier_maximum", two ? dilation->strain[row[0]] : NAN);
+    scree_summary_set_number(summary, "strain_at_later_maximum", two ? dilation->strain[row[1]] : NAN);
 }
 
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
@@ -82,6 +86,8 @@ static const scree_result results[] = {
     {"strain_at_first_dilation_peak", "1", "axial strain there"},
     {"dilation_dip", "1", "largest fall of the dilation after its first peak, over the peak"},
     {"dilation_maxima", "1", "maxima of the dilation with falls of 5 % of its range on both sides"},
+    {"strain_at_earlier_maximum", "1", "axial strain of the earlier one of the two maxima that stand out most"},
+    {"strain_at_later_maximum", "1", "that of the later one"},
 };
 
 const scree_module scree_module_loading_curves = {

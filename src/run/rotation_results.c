@@ -164,6 +164,8 @@ static void summarise(const scree_simulation *s, const findings *f, scree_summar
     scree_summary_set_number(summary, "rotation_handed_strong", t->strong.value);
     scree_summary_set_number(summary, "rotation_handed_weak", t->weak.value);
     scree_summary_set_number(summary, "rotation_handed_aside", t->aside.value);
+    scree_summary_set_number(summary, "rotation_handed_crossed", t->crossed.value);
+    scree_summary_set_number(summary, "rotation_handed_open", t->open.value);
     if (s->state.dimension == 2) {
         double direction = atan2(axis[1], axis[0]);
         set_interval(summary, "rotation_across_chains", a->across.value, a->across.low, a->across.high);

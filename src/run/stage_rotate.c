@@ -313,6 +313,8 @@ static const scree_result results[] = {
     {"rotation_handed_strong", "1", "what a strong contact that leads outward hands on of a rotation"},
     {"rotation_handed_weak", "1", "the same of weak contacts"},
     {"rotation_handed_aside", "1", "the same of contacts that do not lead outward"},
+    {"rotation_handed_crossed", "1", "the same of contacts that lead outward to a grain that a strong chain crosses"},
+    {"rotation_handed_open", "1", "the same of those that lead to a grain that none crosses"},
     {"rose_eigenvector_angle", "degree", "angle between the peak of the rose and the first axis of T"},
     {"rotation_tensor_angle", "degree", "angle of the first axis of T"},
     {"rotation_tensor_first", "1", "largest eigenvalue of T"},

@@ -1,7 +1,8 @@
 /// P looks at displacements in two windows of strain, one behind the other (figs. 3.7 to 3.9): localisation that began
 /// in the first is seen to intensify in the second, or is not propagated to it. The windows are those of
 /// measure.windows, the first pair that adjoins; the distortion of the cells in each is smoothed and measured as in
-/// windows of measure.band_window (measure/localisation.h).
+/// windows of measure.band_window (measure/localisation.h). Where there is one window alone (figs. 2.6, 2.7), its
+/// index.
 ///
 /// Snapshots of the loading stage that lie nearest to the three strains are taken; where one is off by more than APART
 /// of the shorter window there are no results. Cost: three snapshots read, two localisations.
@@ -25,10 +26,12 @@ bool scree_windows_adjoin(const scree_config_measure *measure, scree_adjoining *
     for (int64_t k = 0; k + 1 < measure->window_count; k++) {
         const scree_config_window *one = &measure->windows[k], *next = one + 1;
         if (!(fabs(one->to - next->from) <= 1e-9)) continue;
-        *out = (scree_adjoining){{one->from, one->to, next->to}};
+        *out = (scree_adjoining){{one->from, one->to, next->to}, 3};
         return true;
     }
-    return false;
+    if (measure->window_count != 1) return false;
+    *out = (scree_adjoining){{measure->windows[0].from, measure->windows[0].to}, 2};
+    return true;
 }
 
 // ---- two windows -------------------------------------------------------------------------------------------------
@@ -59,14 +62,15 @@ scree_status scree_window_bands_compare(const scree_cell_snapshot *first, const 
     size_t bodies = first->assembly.count;
     double *field = NULL;
     uint8_t *inside = NULL;
-    scree_localisation localisation[2];
+    scree_localisation localisation[2] = {{.index = NAN}, {.index = NAN}};
     scree_status status = scree_allocate(&field, 2 * bodies, sizeof *field, error);
     if (!status) status = scree_allocate(&inside, 2 * bodies, 1, error);
     if (!status) status = measure_window(first, middle, &localisation[0], field, inside, error);
-    if (!status) status = measure_window(middle, last, &localisation[1], field + bodies, inside + bodies, error);
+    if (!status && last)
+        status = measure_window(middle, last, &localisation[1], field + bodies, inside + bodies, error);
     if (!status)
-        *out = (scree_window_bands){.correlation = scree_field_correlation(field, field + bodies, bodies),
-                                    .overlap = scree_band_overlap(inside, inside + bodies, bodies),
+        *out = (scree_window_bands){.correlation = last ? scree_field_correlation(field, field + bodies, bodies) : NAN,
+                                    .overlap = last ? scree_band_overlap(inside, inside + bodies, bodies) : NAN,
                                     .index = {localisation[0].index, localisation[1].index}};
     scree_release(&field);
     scree_release(&inside);
@@ -94,7 +98,7 @@ static scree_status offer(const char *directory, size_t number, const scree_cell
                           const scree_adjoining *at, nearest place[3], scree_error *error)
 {
     scree_status status = SCREE_OK;
-    for (int k = 0; k < 3 && !status; k++) {
+    for (size_t k = 0; k < at->count && !status; k++) {
         double away = fabs(seen->axial_strain - at->strain[k]);
         if (!(away < place[k].away)) continue;
         scree_cell_snapshot_destroy(&place[k].snapshot);
@@ -131,11 +135,12 @@ static scree_status find_snapshots(const char *directory, const scree_adjoining 
 
 static bool are_near(const scree_adjoining *at, const nearest place[3])
 {
-    double allowed = APART * fmin(at->strain[1] - at->strain[0], at->strain[2] - at->strain[1]);
-    for (int k = 0; k < 3; k++)
-        if (!(place[k].away <= allowed)) return false;
-    return scree_cell_snapshots_agree(&place[0].snapshot, &place[1].snapshot) &&
-           scree_cell_snapshots_agree(&place[0].snapshot, &place[2].snapshot);
+    double allowed = APART * (at->strain[1] - at->strain[0]);
+    if (at->count == 3) allowed = fmin(allowed, APART * (at->strain[2] - at->strain[1]));
+    for (size_t k = 0; k < at->count; k++)
+        if (!(place[k].away <= allowed) || !scree_cell_snapshots_agree(&place[0].snapshot, &place[k].snapshot))
+            return false;
+    return true;
 }
 
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
@@ -150,12 +155,14 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     nearest place[3] = {{.away = INFINITY}, {.away = INFINITY}, {.away = INFINITY}};
     status = find_snapshots(run->directory, &at, place, error);
     bool found = !status && are_near(&at, place);
+    const bool two = at.count == 3;
     if (found)
-        status = scree_window_bands_compare(&place[0].snapshot, &place[1].snapshot, &place[2].snapshot, &bands, error);
-    if (found && !status) {
+        status = scree_window_bands_compare(&place[0].snapshot, &place[1].snapshot, two ? &place[2].snapshot : NULL,
+                                            &bands, error);
+    if (found && !status) scree_summary_set_number(run->summary, "window_index", bands.index[0]);
+    if (found && !status && two) {
         scree_summary_set_number(run->summary, "window_correlation", bands.correlation);
         scree_summary_set_number(run->summary, "window_overlap", bands.overlap);
-        scree_summary_set_number(run->summary, "window_index", bands.index[0]);
         scree_summary_set_number(run->summary, "window_index_next", bands.index[1]);
     }
     forget(place);
@@ -165,13 +172,13 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
 static const scree_result results[] = {
     {"window_correlation", "1", "correlation of the distortion in two adjoining strain windows"},
     {"window_overlap", "1", "grains in the bands of both over grains in either"},
-    {"window_index", "1", "localisation index of the first of these windows"},
+    {"window_index", "1", "localisation index of the first of these windows, or of the only one"},
     {"window_index_next", "1", "localisation index of the second"},
 };
 
 const scree_module scree_module_window_bands = {
     .name = "window_bands",
-    .meaning = "localisation in two adjoining strain windows",
+    .meaning = "localisation in a strain window, or in two that adjoin",
     .results = SCREE_RESULTS(results, NULL),
     .conclude = conclude,
 };

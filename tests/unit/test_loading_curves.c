@@ -42,6 +42,22 @@ static void maxima_stand_out_on_both_sides(void **unused)
     assert_int_equal(scree_maxima_count(value, (scree_loading_rows){0, 1}, 0.05), 0);
 }
 
+static void two_maxima_stand_out_most(void **unused)
+{
+    (void)unused;
+    // 2 has a fall of 0.4 beside it, 9 one of 6, 4 one of 1.
+    const double value[] = {5, 0, 2, 1.6, 9, 3, 4, -1, 6};
+    size_t row[2];
+    assert_true(scree_maxima_most(value, (scree_loading_rows){0, 9}, row));
+    assert_int_equal(row[0], 4);
+    assert_int_equal(row[1], 6);
+    assert_true(scree_maxima_most(value, (scree_loading_rows){0, 6}, row));
+    assert_int_equal(row[0], 2);
+    assert_int_equal(row[1], 4);
+    assert_false(scree_maxima_most(value, (scree_loading_rows){3, 6}, row));
+    assert_false(scree_maxima_most(value, (scree_loading_rows){8, 9}, row));
+}
+
 static double number(scree_summary *summary, const char *name)
 {
     char path[128], text[64];
@@ -77,6 +93,8 @@ static void results_are_those_of_the_curves(void **unused)
     // (0.1 - 0.06)^2 / 0.0016: it falls back to zero.
     assert_true(fabs(number(summary, "dilation_dip") - 1) < 1e-9);
     assert_true(number(summary, "dilation_maxima") == 1);
+    assert_true(isnan(number(summary, "strain_at_earlier_maximum")) &&
+                isnan(number(summary, "strain_at_later_maximum")));
     scree_summary_destroy(summary);
 }
 
@@ -85,6 +103,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_peaks_are_followed_by_a_fall),
         cmocka_unit_test(maxima_stand_out_on_both_sides),
+        cmocka_unit_test(two_maxima_stand_out_most),
         cmocka_unit_test_setup_teardown(results_are_those_of_the_curves, make_scratch, remove_scratch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

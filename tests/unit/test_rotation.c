@@ -402,6 +402,45 @@ static void contacts_are_sorted_by_force_and_angle(void **unused)
     destroy(&c);
 }
 
+/// Three pairs lead outward and hand on different shares; at the outer end of each a third body bears a strong contact:
+/// across, at 40 degrees to the branch (a chain that leads on), and across, but weak.
+static void strong_chains_cross_what_leads_outward(void **unused)
+{
+    (void)unused;
+    static const double across[] = {90, 40, 90}, force[] = {5, 5, 0.5}, handed[] = {0.25, 0.5, 0.8};
+    enum { ARMS = 3 };
+    cluster c = {.model = {.dimension = 2, .mean_radius = RADIUS}};
+    assert_int_equal(scree_state_create(&c.state, 2, 1 + 3 * ARMS, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&c.table.contact, 2 * ARMS, sizeof *c.table.contact, NULL), SCREE_OK);
+    c.state.row[0] = (scree_row){.radius = RADIUS, .mass = 1};
+    c.state.angle[0] = 0.03;
+    for (size_t arm = 0; arm < ARMS; arm++) {
+        const double turn = (20 + 120 * (double)arm) * M_PI / 180, aside = turn + across[arm] * M_PI / 180;
+        const size_t inner = 1 + 3 * arm, outer = inner + 1, third = outer + 1;
+        for (size_t end = 0; end < 2; end++) {
+            const double distance = (3 + (double)end) * 2 * RADIUS;
+            c.state.row[inner + end] =
+                (scree_row){.x = distance * cos(turn), .y = distance * sin(turn), .radius = RADIUS, .mass = 1};
+        }
+        c.state.row[third] = c.state.row[outer];
+        c.state.row[third].x += 2 * RADIUS * cos(aside);
+        c.state.row[third].y += 2 * RADIUS * sin(aside);
+        for (size_t end = 0; end < 3; end++) c.state.sum[inner + end].contacts = 2;
+        c.state.sum[third].contacts = 1; // does not count, and hands on nothing
+        c.state.angle[inner] = 0.01;
+        c.state.angle[outer] = -0.01 * handed[arm];
+        add_contact(&c, arm % 2 ? outer : inner, arm % 2 ? inner : outer, 1);
+        add_contact(&c, third, outer, force[arm]);
+    }
+    scree_rotation_transmission t;
+    scree_rotation_transmission_measure(&c.model, &c.state, &c.table, 0, 10, 0.1, &t);
+    assert_int_equal(t.crossed.count, 1);
+    assert_true(fabs(t.crossed.value - handed[0]) < 1e-9);
+    assert_int_equal(t.open.count, 2);
+    assert_true(fabs(t.open.value - sqrt(handed[1] * handed[2])) < 1e-9);
+    destroy(&c);
+}
+
 static void an_isotropic_network_has_an_isotropic_tensor(void **unused)
 {
     (void)unused;
@@ -535,6 +574,7 @@ int main(void)
         cmocka_unit_test(rotations_behind_a_strong_chain),
         cmocka_unit_test(contacts_hand_on_what_their_bodies_say),
         cmocka_unit_test(contacts_are_sorted_by_force_and_angle),
+        cmocka_unit_test(strong_chains_cross_what_leads_outward),
         cmocka_unit_test(an_isotropic_network_has_an_isotropic_tensor),
         cmocka_unit_test(radial_and_tangential_segments),
         cmocka_unit_test(rotations_that_follow_chains_correlate),

@@ -72,6 +72,18 @@ static void bands_that_grow_sharper_have_a_larger_index(void **unused)
     assert_true(blurs.index[0] > 1.1 * blurs.index[1]);
 }
 
+static void a_window_alone_has_its_index(void **unused)
+{
+    (void)unused;
+    scree_window_bands alone;
+    scree_cell_snapshot first = lattice(), last = sheared(&first, 1, 0.05, 11);
+    assert_int_equal(scree_window_bands_compare(&first, &last, NULL, &alone, NULL), SCREE_OK);
+    assert_true(alone.index[0] == compare(1, 0.05, 0.05).index[0]);
+    assert_true(isnan(alone.index[1]) && isnan(alone.correlation) && isnan(alone.overlap));
+    scree_cell_snapshot_destroy(&first);
+    scree_cell_snapshot_destroy(&last);
+}
+
 static void windows_adjoin_where_one_ends_as_the_next_begins(void **unused)
 {
     (void)unused;
@@ -79,9 +91,12 @@ static void windows_adjoin_where_one_ends_as_the_next_begins(void **unused)
     scree_config_measure measure = {.windows = windows, .window_count = 4};
     scree_adjoining at;
     assert_true(scree_windows_adjoin(&measure, &at));
-    assert_true(at.strain[0] == 0.1 && at.strain[1] == 0.12 && at.strain[2] == 0.14);
+    assert_true(at.count == 3 && at.strain[0] == 0.1 && at.strain[1] == 0.12 && at.strain[2] == 0.14);
     measure.window_count = 2;
     assert_false(scree_windows_adjoin(&measure, &at));
+    measure.window_count = 1;
+    assert_true(scree_windows_adjoin(&measure, &at));
+    assert_true(at.count == 2 && at.strain[0] == 0.07 && at.strain[1] == 0.085);
     measure.window_count = 0;
     assert_false(scree_windows_adjoin(&measure, &at));
 }
@@ -91,6 +106,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_that_stay_are_correlated),
         cmocka_unit_test(bands_that_grow_sharper_have_a_larger_index),
+        cmocka_unit_test(a_window_alone_has_its_index),
         cmocka_unit_test(windows_adjoin_where_one_ends_as_the_next_begins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
