@@ -11,19 +11,21 @@
 /// what others that sleep exert) over the last window, fading exponentially, exceeds `wake` times its weight: it would
 /// have been given that momentum. The mean is taken in every step, and looked at every WAKE_EVERY, one by one, so that
 /// a push runs through a pile as far as it is strong. Every LOOK_EVERY steps wakes, too, what has lost a contact since
-/// the look before, one that it had when it fell asleep or with what came to rest beside it later, and what others that
-/// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well. All wake when
-/// gravity changes, when the sources have stopped, and when another stage begins.
+/// the look before, one that it had when it fell asleep or with what came to rest beside it later, what others that
+/// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well; and what has been
+/// out of balance by more than `force` at all looks for a window, as it had to be in balance for one to fall asleep.
+/// All wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, and when another
+/// stage begins.
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
 /// as whole numbers (state/sleep.h). So is what walls that stand exert; what all that sleep exert on each of these is
 /// summed anew whenever some beside walls fall asleep or wake.
 ///
-/// An approximation: pushes below `wake` do not pass what sleeps, and motion below `force` and `motion` stops; momentum
-/// is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md. Cost: 0.5 ns a body
-/// that sleeps, 20 ns one that is pushed, or awake (every LOOK_EVERY steps); 2 ns a pair of neighbours when one falls
-/// asleep or wakes (search/sections.c).
+/// An approximation: pushes below `wake` that are shorter than a window, and those below `force`, do not pass what
+/// sleeps, and motion below `force` and `motion` stops; momentum is not kept by what sleeps, as by a wall. What it
+/// changes is measured in docs/theory/pouring.md. Cost: 0.5 ns a body that sleeps, 20 ns one that is pushed, or awake
+/// (every LOOK_EVERY steps); 2 ns a pair of neighbours when one falls asleep or wakes (search/sections.c).
 #include "state/sleep.h"
 
 #include "base/checksum.h"
@@ -35,6 +37,7 @@
 #include "module/stage.h"
 #include "search/neighbours.h"
 #include "state/births.h"
+#include "state/case_walls.h"
 #include "state/plates.h"
 
 #include <float.h>
@@ -182,15 +185,25 @@ static bool count_contacts(const scree_state *state, size_t row)
     return false;
 }
 
-/// Whether what others that sleep exert on it, and its weight, are out of balance.
-static bool hangs(const scree_context *c, const scree_sleep_limits *limits, size_t row)
+/// How far it is out of balance, over its weight: of what is pushed the mean, else what others that sleep leave.
+static double imbalance(const scree_context *c, size_t row)
 {
     double resultant[6];
+    if (some_are_pushed(c->state, row, 1)) return size_of(scree_sleep_of(c->state)->push[row]);
     find_resultant(c, row, resultant);
-    return size_of(resultant) > limits->wake;
+    return size_of(resultant);
 }
 
-/// Marks those that wake because of what is no longer beside them; returns how many.
+/// Whether it is out of balance by more than a push may be, or has for a window been by more than what is quiet.
+static bool hangs(const scree_context *c, const scree_sleep_limits *limits, size_t row)
+{
+    uint32_t *restless = &scree_sleep_of(c->state)->quiet[row];
+    const double size = imbalance(c, row);
+    *restless = size > limits->force ? *restless + LOOK_EVERY : 0;
+    return size > limits->wake || *restless >= limits->window / c->state->step_size;
+}
+
+/// Marks those that wake because of what is no longer beside them, or never was; returns how many.
 static size_t mark_left(const scree_context *c, const scree_sleep_limits *limits)
 {
     const scree_state *state = c->state;
@@ -198,7 +211,8 @@ static size_t mark_left(const scree_context *c, const scree_sleep_limits *limits
     size_t found = 0;
     for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
         if (sleep->asleep[row] != SCREE_ASLEEP) continue;
-        if (!count_contacts(state, row) && (some_are_pushed(state, row, 1) || !hangs(c, limits, row))) continue;
+        const bool lost = count_contacts(state, row);
+        if (!hangs(c, limits, row) && !lost) continue;
         sleep->asleep[row] = SCREE_WAKES;
         found++;
     }
@@ -356,12 +370,14 @@ static scree_status list(const scree_context *c, scree_error *error)
     return status;
 }
 
-/// Whether none may sleep in this step, or those that do fell asleep under another gravity.
+/// Whether none may sleep in this step, or those that do fell asleep under another gravity, or beside walls that then
+/// stood or moved and now do not.
 static bool all_wake(const scree_context *c)
 {
     const scree_sleep_limits limits = limits_of(c->model, c->state);
     const scree_sleep *sleep = scree_sleep_of(c->state);
-    return !may_sleep(c, &limits) || memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) != 0;
+    return !may_sleep(c, &limits) || memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) != 0 ||
+           sleep->walls != scree_case_walls_that_move(c->model, c->state);
 }
 
 static scree_status all_will_wake(const scree_context *c, bool *wanted, scree_error *error)
@@ -377,7 +393,9 @@ static scree_status wake(const scree_context *c, scree_error *error)
     scree_sleep *sleep = scree_sleep_of(c->state);
     (void)error;
     if (all_wake(c)) wake_all(c);
-    if (may_sleep(c, &limits)) memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
+    if (!may_sleep(c, &limits)) return SCREE_OK;
+    memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
+    sleep->walls = scree_case_walls_that_move(c->model, c->state);
     return SCREE_OK;
 }
 
@@ -503,7 +521,8 @@ static const scree_field fields[] = {
     WALL(torque, "the same about its centre, in units of sleep/wall_torque_unit"),
     BODY(asleep, uint8_t, "asleep", SCREE_FIELD_UINT8, 1, "1", "1: the body sleeps", .snapshot = true,
          .ghosts = SCREE_GHOSTS_KEEP, SCREE_RANGE(0, 1)),
-    BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1", "steps for which it has been quiet"),
+    BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1",
+         "steps for which it has been quiet; of one that sleeps, out of balance"),
     BODY(resting, scree_resting, "resting", SCREE_FIELD_INT64, 7, "1",
          "of a body that sleeps, from others that do and walls that stand: force in units of sleep/force_unit, torque "
          "in units of "
@@ -521,6 +540,7 @@ static const scree_field fields[] = {
     ONE(torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of its torques", SCREE_RANGE(0, DBL_MAX)),
     ONE(wall_torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of the torques on walls", SCREE_RANGE(0, DBL_MAX)),
     ONE(gravity, SCREE_FIELD_DOUBLE, 3, "m/s2", "gravity of the last step in which bodies might sleep"),
+    ONE(walls, SCREE_FIELD_UINT64, 1, "1", "a bit for each wall of the case that moved in that step"),
     ONE(overlap, SCREE_FIELD_DOUBLE, 1, "m", "bound of the overlaps of those that sleep", SCREE_RANGE(0, DBL_MAX)),
     ONE(taken, SCREE_FIELD_DOUBLE, 1, "J",
         "kinetic energy of bodies when they fell asleep, less that of those that woke"),

@@ -48,6 +48,21 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return c;
 }
 
+uint64_t scree_case_walls_that_move(const scree_model *model, const scree_state *state)
+{
+    const scree_case_wall_set *walls = scree_case_walls(state);
+    const double time = scree_case_walls_time(walls, state);
+    uint64_t moving = 0;
+    for (int64_t w = 0; walls->moving && w < model->wall_count; w++) {
+        const scree_config_wall *wall = &model->walls_of_case[w];
+        scree_vector velocity;
+        if (scree_wall_stands(wall)) continue;
+        scree_wall_velocity(wall, walls->load[w].speed, time, state->step_size, velocity);
+        if (scree_length(velocity) > 0 || scree_length(wall->spin) > 0) moving |= UINT64_C(1) << w;
+    }
+    return moving;
+}
+
 /// Speeds of the walls under servo from the forces at n.
 static scree_status decide(const scree_context *c, scree_error *error)
 {

@@ -33,4 +33,7 @@ static inline scree_case_wall_set *scree_case_walls(const scree_state *state)
     return state->own[SCREE_SLOT_case_walls];
 }
 
+/// A bit for each wall of the case that moves in this step.
+uint64_t scree_case_walls_that_move(const scree_model *model, const scree_state *state);
+
 #endif

@@ -261,7 +261,7 @@ static void gravity_wakes(void **unused)
 static void a_push_wakes_at_its_mean(void **unused)
 {
     (void)unused;
-    const double weight = 2500 * M_PI * 4e-6 * 9.81, rate = 100, window = 4e-3, wake = 2;
+    const double weight = 2500 * M_PI * 4e-6 * 9.81, rate = 100, window = 4e-2, wake = 2;
     char push[300];
     (void)snprintf(push, sizeof push,
                    "loads=[{load: prescribed, selection: one, force_x: [[0 s, 0], [0.5 s, 0], [1.5 s, %.17g]]}]",
@@ -274,7 +274,7 @@ static void a_push_wakes_at_its_mean(void **unused)
         "selections=[{select: ids, name: one, ids: [0]}]",
         push,
         "stages=[{stage: prepare, method: bodies, width: 1, height: 1, bodies: [{position: [0, 2 mm]}]}, {stage: pour, "
-        "sleep_window: 4 ms, sleep_force: 0.5, sleep_motion: 2e-2, wake_force: 2}]",
+        "sleep_window: 40 ms, sleep_force: 0.5, sleep_motion: 0.2, wake_force: 2}]",
         "sources=[{source: point, place: [0.5, 0.01], interval: 10 s}]"};
     scree_case *c;
     scree_simulation s = open_with(discs, overrides, COUNT_OF(overrides), &c);
@@ -289,6 +289,90 @@ static void a_push_wakes_at_its_mean(void **unused)
     print_message("woke after %.6g ms, mean %.6g weights\n", 1e3 * since, mean);
     assert_true(fabs(mean - wake) < 0.02);
     close_both(&s, c);
+}
+
+/// Seconds after which a disc that sleeps wakes under a load of `share` of its weight, ten windows if it does not.
+static double wakes_after(double share, double *looks)
+{
+    const double weight = 2500 * M_PI * 4e-6 * 9.81, window = 4e-3;
+    char push[300];
+    (void)snprintf(
+        push, sizeof push,
+        "loads=[{load: prescribed, selection: one, force_x: [[0 s, 0], [0.5 s, 0], [0.500001 s, %.17g], [2 s, "
+        "%.17g]]}]",
+        -share * weight, -share * weight);
+    const char *const overrides[] = {
+        "particles={shape: disc, material: glass, thickness: 1 m, count: 3, distribution: equal, radius: 2 mm}",
+        "walls=[{shape: plane, point: [0, 0], normal: [0, 1]}]",
+        "materials.glass.friction=0",
+        "materials.glass.young_modulus=10 GPa",
+        "selections=[{select: ids, name: one, ids: [0]}]",
+        push,
+        "stages=[{stage: prepare, method: bodies, width: 1, height: 1, bodies: [{position: [0, 2 mm]}]}, {stage: pour, "
+        "sleep_window: 4 ms, sleep_force: 0.3, sleep_motion: 2e-2, wake_force: 2}]",
+        "sources=[{source: point, place: [0.5, 0.01], interval: 10 s}]"};
+    scree_case *c;
+    scree_simulation s = open_with(discs, overrides, COUNT_OF(overrides), &c);
+    step_to(&s, 0.5);
+    assert_true(scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0)));
+    while (scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0)) &&
+           scree_state_time(&s.state) < 0.5 + 10 * window)
+        simulation_step(&s);
+    const double since = scree_state_time(&s.state) - 0.5;
+    *looks = 128 * s.state.step_size;
+    close_both(&s, c);
+    return since;
+}
+
+/// Less than `wake_force` is felt, too, when it does not end: the mean passes 0.3 of the weight at -window log(1 - 0.3
+/// / 0.7), and stays there for a window; looks are 128 steps apart.
+static void a_push_that_does_not_end_wakes(void **unused)
+{
+    (void)unused;
+    const double window = 4e-3, passes = -window * log(1 - 0.3 / 0.7);
+    double look;
+    const double since = wakes_after(0.7, &look);
+    print_message("woke after %.6g ms\n", 1e3 * since);
+    assert_true(since >= passes + window - look && since <= passes + window + 2 * look);
+    // Less than what is quiet is not.
+    assert_true(wakes_after(0.25, &look) >= 10 * window);
+}
+
+/// A brick that sleeps on a table with little friction, which begins to move: it goes as it does when none sleep.
+static void a_wall_that_begins_to_move_wakes(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "scree: 1\nname: belt\ngravity: [0, -9.81]\n"
+        "materials: [{name: stone, young_modulus: 1e7 Pa, density: 5000 kg/m3, friction: 0.2, damping_constant: "
+        "0.75}]\n"
+        "contact: {law: polygon_overlap}\nintegrator: {step: 1e-5 s}\nmeasure: {cells: no}\n"
+        "output: {figures: no, paraview: no}\n"
+        "particles: {shape: polygon, thickness: 1 m, material: stone, count: 3, distribution: equal, radius: 2.75 mm,"
+        " outline: regular, corners_min: 4, corners_max: 4}\n"
+        "sources: [{source: point, place: [0.4, 0.03], interval: 10 s}]\n"
+        "walls:\n"
+        "  - {shape: plane, name: ground, point: [0, -50 mm], normal: [0, 1]}\n"
+        "  - {shape: box, name: table, side: outside, lower: [-100 mm, -10 mm], upper: [500 mm, 0],"
+        " velocity: [[0 s, 0, 0], [0.5 s, 0, 0], [0.51 s, 0.05, 0], [5 s, 0.05, 0]]}\n"
+        "stages:\n"
+        "  - {stage: prepare, method: bodies, width: 1, height: 1, bodies: [{position: [0, 3.5 mm]}]}\n"
+        "  - {stage: pour, sleep_window: 5 ms, sleep_force: 0.3, sleep_motion: 0.01, wake_force: 1}\n";
+    double place[2];
+    for (int sleeps = 0; sleeps < 2; sleeps++) {
+        scree_case *c;
+        const char *const awake = "stages.pour.sleep_window=auto";
+        scree_simulation s = open_with(text, &awake, sleeps ? 0 : 1, &c);
+        step_to(&s, 0.5);
+        assert_int_equal(scree_sleep_of(&s.state)->count > 0, sleeps);
+        const double from = s.state.row[scree_state_row_of(&s.state, 1)].x;
+        step_to(&s, 0.55);
+        assert_int_equal(scree_sleep_of(&s.state)->count, 0);
+        place[sleeps] = s.state.row[scree_state_row_of(&s.state, 1)].x - from;
+        close_both(&s, c);
+    }
+    print_message("by %.6g and %.6g mm\n", 1e3 * place[0], 1e3 * place[1]);
+    assert_true(place[0] > 1e-3 && fabs(place[1] / place[0] - 1) < 1e-3);
 }
 
 // ---- nothing but the state -----------------------------------------------------------------------------------------
@@ -434,6 +518,8 @@ int main(void)
         cmocka_unit_test(what_falls_does_not_sleep),
         cmocka_unit_test(gravity_wakes),
         cmocka_unit_test(a_push_wakes_at_its_mean),
+        cmocka_unit_test(a_push_that_does_not_end_wakes),
+        cmocka_unit_test(a_wall_that_begins_to_move_wakes),
         cmocka_unit_test(a_lost_contact_wakes),
         cmocka_unit_test(a_list_knows_how_far_bodies_had_gone),
         cmocka_unit_test(nothing_but_the_state_decides),
