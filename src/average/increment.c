@@ -3,6 +3,7 @@
 
 #include "average/dip.h"
 #include "average/elastic.h"
+#include "average/relation.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,6 +22,11 @@
 #define AGAINST(name, of)                                                                                              \
     {                                                                                                                  \
         name "_fabric_correlation", "1", "rank correlation of " of " with the trace of the fabric tensor"              \
+    }
+#define BEND(name, of)                                                                                                 \
+    {                                                                                                                  \
+        name "_fabric_bend", "1",                                                                                      \
+            "of what a parabola in that trace explains of the variance of " of ", the share that a line does not"      \
     }
 
 const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
@@ -65,6 +71,11 @@ const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
     AGAINST("density", "the volume fraction"),
     AGAINST("bulk_modulus_inside", "the bulk modulus, both of the part inside,"),
     AGAINST("density_inside", "the volume fraction, both of the part inside,"),
+    BEND("bulk_modulus", "the bulk modulus"),
+    BEND("shear_modulus", "the shear modulus"),
+    BEND("young_modulus", "Young's modulus"),
+    BEND("poisson_ratio", "Poisson's ratio"),
+    BEND("density", "the volume fraction"),
     {"elastic_misfit_core", "1", "what an isotropic law leaves of the change of stress, in the core"},
     {"invariant_ratio_small", "Pa",
      "trace of the change of stress over that of the strain, half of the elements whose stress changes least"},
@@ -156,31 +167,6 @@ static void take_pairs(const finding *f, const char *first, const char *second, 
     }
 }
 
-/// Ranks, equal values sharing theirs.
-static void rank(const double *value, size_t count, double *of)
-{
-    for (size_t i = 0; i < count; i++) {
-        of[i] = 0;
-        for (size_t k = 0; k < count; k++) of[i] += value[k] < value[i] ? 1 : value[k] == value[i] ? 0.5 : 0;
-    }
-}
-
-/// Pearson's coefficient.
-static double relate(const double *x, const double *y, size_t count)
-{
-    double mean_x = 0, mean_y = 0, xx = 0, yy = 0, xy = 0;
-    for (size_t k = 0; k < count; k++) {
-        mean_x += x[k] / (double)count;
-        mean_y += y[k] / (double)count;
-    }
-    for (size_t k = 0; k < count; k++) {
-        xx += (x[k] - mean_x) * (x[k] - mean_x);
-        yy += (y[k] - mean_y) * (y[k] - mean_y);
-        xy += (x[k] - mean_x) * (y[k] - mean_y);
-    }
-    return count > 2 ? xy / sqrt(xx * yy) : NAN;
-}
-
 /// Sum of the traces of the change of stress over that of the strains, of elements whose change lies between limits.
 static double secant(const finding *f, double low, double high)
 {
@@ -192,16 +178,6 @@ static double secant(const finding *f, double low, double high)
         strain += p.second[k];
     }
     return stress / strain;
-}
-
-static double rank_correlation(const finding *f, const char *first, const char *second)
-{
-    double x[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS], y[SCREE_INCREMENT_CUTS * SCREE_INCREMENT_POINTS];
-    pairs p;
-    take_pairs(f, first, second, -INFINITY, INFINITY, &p);
-    rank(p.first, p.count, x);
-    rank(p.second, p.count, y);
-    return relate(x, y, p.count);
 }
 
 // ---- states ------------------------------------------------------------------------------------------------------
@@ -356,6 +332,9 @@ static scree_status find_strains(finding *f, scree_error *error)
 
 // ---- constants and fabric ----------------------------------------------------------------------------------------
 
+/// The first pairs: of whole elements.
+enum { BENDS = 5 };
+
 static void find_constants(finding *f)
 {
     static const char *const constant[] = {"bulk_modulus",        "shear_modulus",       "young_modulus",
@@ -374,7 +353,12 @@ static void find_constants(finding *f)
         give(f, core / median(f, FLANK_OF, constant[k]));
         give(f, core / median(f, UPPER_CORE, constant[k]));
     }
-    for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) give(f, rank_correlation(f, pair[k][0], pair[k][1]));
+    pairs p[sizeof pair / sizeof *pair];
+    for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) {
+        take_pairs(f, pair[k][0], pair[k][1], -INFINITY, INFINITY, &p[k]);
+        give(f, scree_average_rank_correlation(p[k].first, p[k].second, p[k].count));
+    }
+    for (size_t k = 0; k < BENDS; k++) give(f, scree_average_bend(p[k].first, p[k].second, p[k].count));
     give(f, median(f, CORE_OF, "elastic_misfit"));
     const double middle = median(f, ALL, "stress_change_trace");
     const double below = secant(f, -INFINITY, middle), above = secant(f, middle, INFINITY);

@@ -38,7 +38,7 @@ static inline double scree_increment_reach(int definition)
     return definition == SCREE_AVERAGE_DIFFERENCE ? SCREE_INCREMENT_FLANK : 1;
 }
 
-enum { SCREE_INCREMENT_ROWS = 66 };
+enum { SCREE_INCREMENT_ROWS = 71 };
 extern const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS];
 
 /// Finds all of them. Both samples are finished, and the grains of `after` have moved from where they were in `before`
