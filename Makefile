@@ -31,6 +31,8 @@ reproduce: all programs ## the published experiments in their quick forms, compa
 # A copy of the program, so that building does not change what goes on running; what decides most comes first.
 FIRST = biaxial-preparation biaxial-boundaries biaxial-timescales biaxial-timescales-large
 reproduce-full: all programs ## the same with the sources' own numbers: many hours; interrupt it and call it again
+	@! git rev-parse -q --verify HEAD >/dev/null 2>&1 || git diff --quiet HEAD || \
+	    { echo "make reproduce-full: files differ from the commit that the runs would name: commit them first" >&2; exit 2; }
 	@mkdir -p out-reproduce && cp $(BUILD)/scree out-reproduce/scree.new && mv out-reproduce/scree.new out-reproduce/scree
 	@bash cmake/records.sh restore out-reproduce/full records; \
 	for only in $(FIRST:%=--only=%) ""; do \

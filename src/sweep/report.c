@@ -243,7 +243,7 @@ static const char introduction[] =
     "account\n"
     "(`quasistatic: no` in their summary.json), why runs failed, and which were made of another preparation or of "
     "other\n"
-    "seeds than the case has now.\n"
+    "seeds than the case has now. A `+` behind a build: files differed from that commit.\n"
     "\n"
     "A *finding* is the source's own, a *check* ours (an identity, a closed form, a stop rule), *beyond* what the\n"
     "source does not have. Each statement counts once: by its full form where that has a result with an interval,\n"
