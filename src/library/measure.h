@@ -204,6 +204,12 @@ scree_status measure_draw_clouds(const char *folder, const measure_plan *plan, c
 scree_status measure_draw_network(const char *folder, const scree_average_sample *sample, const uint8_t *linked,
                                   scree_error *error);
 
+/// Draws the displacements of a plane sample on the grains of its earlier state, snapshot number `place` of the run.
+/// values: its own, with where it lies. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT; memory.
+scree_status measure_draw_displacements(const char *folder, const char *directory, size_t place,
+                                        const scree_average_sample *sample, const scree_average_table *values,
+                                        scree_error *error);
+
 /// Tells a line, printf-like.
 __attribute__((format(printf, 2, 3))) void measure_say(const measure_plan *plan, const char *format, ...);
 

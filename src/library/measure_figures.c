@@ -3,6 +3,7 @@
 
 #include "io/run_directory.h"
 #include "view/chart.h"
+#include "view/displacements.h"
 #include "view/force_figures.h"
 #include "view/links.h"
 #include "view/map.h"
@@ -191,8 +192,8 @@ static const map_figure map_figures[] = {
      "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NO_LINES},
     {MEASURE_MAP, "map-stress-change", "stress_change_yy", "Change of the vertical pressure",
      "change of the vertical pressure (kPa)", -1e-3, SCREE_COLOUR_DIVERGING, NO_LINES},
-    {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor", "tr F", 1, SEQUENTIAL, "fabric_angle",
-     ", and its major axis"},
+    {MEASURE_MAP, "map-fabric", "fabric_trace_inside", "Trace of the fabric tensor inside", "tr F", 1, SEQUENTIAL,
+     "fabric_angle", ", and its major axis"},
     {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes", "order (0 none, 1 all alike)", 1, SEQUENTIAL,
      "axes_angle", ", and their mean direction"},
     {MEASURE_MAP, "map-velocity", "velocity_x", "Horizontal velocity", "velocity x (m/s)", 1, SCREE_COLOUR_DIVERGING,
@@ -320,6 +321,25 @@ scree_status measure_draw_network(const char *folder, const scree_average_sample
                                .width = 0.22 * sample->mean_radius};
     status = forgive(scree_links_draw(path, &links, error));
     scree_release(&link);
+    return status;
+}
+
+scree_status measure_draw_displacements(const char *folder, const char *directory, size_t place,
+                                        const scree_average_sample *sample, const scree_average_table *values,
+                                        scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_snapshot from;
+    const double axis = values->value[scree_average_table_find(values, "axis")];
+    // As far beside the foot of a pile as its other figures show; grains may have rolled farther.
+    const double half = 1.2 * values->value[scree_average_table_find(values, "half_width")];
+    const double shown[2] = {axis - half, axis + half};
+    scree_status status = scree_folders_make(folder, error);
+    if (!status) status = scree_path_join(path, sizeof path, folder, "displacements", error);
+    if (!status) status = scree_snapshot_read(directory, place, &from, error);
+    if (status) return status;
+    status = scree_displacements_draw(path, &from, sample, shown, error);
+    scree_snapshot_destroy(&from);
     return status;
 }
 
