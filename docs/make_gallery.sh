@@ -8,7 +8,8 @@ export PATH SCREE_PIXELS=720
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cp "$here"/tutorials/*.yaml "$here"/tutorials/*.csv "$scratch"
-mkdir "$scratch/pictures"
+mkdir "$scratch/pictures" "$scratch/records"
+cp "$here"/../records/pile-line.tar.xz "$scratch/records"
 cd "$scratch"
 
 # show TITLE TEXT PICTURE=FIGURE... <COMMANDS: runs the commands; the figures become pictures of the page.
@@ -29,7 +30,7 @@ show() {
 cat >gallery.md <<'END'
 # Gallery
 
-Pictures as Scree draws them, each below the commands that made it; `make gallery` makes this page anew. The runs are small, of some seconds each: `--quick` is a smaller form of a built-in case (leave it out for the whole one), `--set` changes single values. `scree plot FOLDER --list` names the other figures of a run. Files of cases without `--quick` are those of the [tutorials](tutorials/README.md). Seconds are those of one core.
+Pictures as Scree draws them, each below the commands that made it; `make gallery` makes this page anew. The runs are small, of some seconds each: `--quick` is a smaller form of a built-in case (leave it out for the whole one), `--set` changes single values. `scree plot FOLDER --list` names the other figures of a run. Files of cases without `--quick` are those of the [tutorials](tutorials/README.md), full piles those of [records](../records/README.md). Seconds are those of one core.
 END
 
 show 'Shear band of a biaxial test' 'Discs between rigid plates, pressure on the Delaunay boundary. How much the cells between the grains are distorted in a window of axial strain, and the band that is found in it.' \
@@ -82,6 +83,19 @@ END
 show 'Sand pile' 'Discs that resist rolling, through a funnel onto a plate: when each has come.' \
     pile=pile/figures/pile <<'END'
 scree run pile-hopper --quick -o pile
+END
+show 'Pile of polygons' 'A full pile of the sweep `pile-line`, as the records keep it: polygons rained layer by layer from a line as wide as the plateau, and when each has come.' \
+    pile-polygons=pile-line/members/000-narrow-seed=501/figures/scene-birth-000016 <<'END'
+tar -xJf records/pile-line.tar.xz
+scree plot pile-line/members/000-narrow-seed=501 --scene birth
+END
+show 'Pressure inside a pile' 'The same pile: vertical pressure, and the axis of the largest one ([averages](theory/averages.md)).' \
+    pile-map=mapped/map-stress-vertical <<'END'
+scree measure pile-line/members/000-narrow-seed=501 --fields stress --grid 100x40 -o mapped
+END
+show 'Cuts through piles, and theories fitted to them' 'The mean of all full piles there with bands of 95 %, and the wedge with a dip, without, with a peak, and with the boundary of its core as it fits best. Bands of so few piles are too narrow, which the program says.' \
+    pile-cuts=piles/cuts-stress-vertical pile-fit=piles/fits-vertical <<'END'
+scree measure pile-line/members/* --fields stress --fit wedge -o piles
 END
 show 'Theory of sand piles' 'Vertical stress at the base of a wedge of 28 degrees, from closed forms ([theory](theory/piles.md)).' \
     wedge=wedge/vertical <<'END'

@@ -29,7 +29,7 @@
             "of what a parabola in that trace explains of the variance of " of ", the share that a line does not"      \
     }
 
-const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
+const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS + 1] = {
     {"gravity_ratio", "1", "gravity at the end over that in the earlier state"},
     {"earlier_unbalanced", "1", "unbalanced ratio of the earlier state"},
     {"vertical_pressure_most", "Pa", "largest vertical pressure along the lowest cut at the end"},
@@ -89,6 +89,7 @@ const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS] = {
     {"fabric_stress_offset", "degree", "mean angle between the major axes of fabric and pressure along the lowest cut"},
     {"strain_stress_offset", "degree", "the same between the axes of the strain and of the change of stress"},
     {"increment_element", "1", "grains that an element holds"},
+    {"compared_with", NULL, "stage at whose end the earlier state is"},
 };
 
 /// What numbers are found from.

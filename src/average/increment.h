@@ -39,7 +39,7 @@ static inline double scree_increment_reach(int definition)
 }
 
 enum { SCREE_INCREMENT_ROWS = 71 };
-extern const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS];
+extern const scree_result scree_increment_rows[SCREE_INCREMENT_ROWS + 1]; ///< the last one is no number
 
 /// Finds all of them. Both samples are finished, and the grains of `after` have moved from where they were in `before`
 /// (scree_average_move). grains: in an element; 0: the usual number. What there is not is NAN. Errors: memory; an

@@ -35,6 +35,7 @@ scree_status scree_snapshot_marks(const char *directory, scree_snapshot_mark **m
     for (size_t k = 0; k < list.count && !run.status; k++) {
         scree_snapshot_mark *mark = &(*marks)[k];
         mark->index = list.index[k];
+        mark->place = k;
         scree_part_group(SCREE_PART_SNAPSHOT, mark->index, group, sizeof group);
         scree_hdf5_get_number(&run, group, "time", &mark->time);
         scree_hdf5_get_number(&run, group, "axial_strain", &mark->axial_strain);

@@ -7,6 +7,7 @@
 /// What a snapshot is of.
 typedef struct scree_snapshot_mark {
     int64_t index;       ///< its number
+    size_t place;        ///< among all snapshots of the run
     double time;         ///< s
     double axial_strain; ///< NAN outside loading
     char stage[32];      ///< its kind

@@ -50,6 +50,7 @@ typedef struct measure_fits {
     size_t count;
     const char *theory[MEASURE_FITS];
     bool solved[MEASURE_FITS];
+    scree_fit fit[MEASURE_FITS]; ///< of piles alone: what was found, of what was solved
     size_t numbers;
     measure_fit_number number[MEASURE_FIT_NUMBERS];
     size_t rows, room;
@@ -140,6 +141,9 @@ scree_status measure_fit_write(const char *folder, const measure_plan *plan, con
 scree_status measure_fit_draw(const char *folder, const measure_plan *plan, const measure_fits *fits,
                               scree_error *error);
 
+/// Expression of Mohr and Coulomb, each side with its own slope: 0 where it yields.
+double measure_fit_yielding(const measure_fits *fits, const scree_fit_point *point);
+
 /// The same of layers. Errors: SCREE_ERROR_INPUT with field --fit for runs without a response; memory.
 scree_status measure_fit_layers(const measure_tables *each, size_t count, const measure_plan *plan,
                                 measure_found *found, scree_error *error);
@@ -179,6 +183,14 @@ scree_status measure_write(const char *folder, const measure_plan *plan, const m
 /// Draws it. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
 
+enum { MEASURE_LINES = 7 }; ///< of one chart that can be told apart
+
+/// Of `count` cuts the one that line k of a chart shows: all, or MEASURE_LINES of them spread evenly, the first and the
+/// last one with them.
+size_t measure_spread(size_t count, size_t k);
+/// A title that says so where not all cuts are shown.
+void measure_title(char *title, size_t size, const char *text, size_t count);
+
 /// Draws averages against the size of their elements. Errors: SCREE_ERROR_IO; memory.
 scree_status measure_draw_sizes(const char *folder, const measure_found *found, scree_error *error);
 
@@ -191,6 +203,12 @@ scree_status measure_draw_clouds(const char *folder, const measure_plan *plan, c
 /// SCREE_ERROR_IO; memory.
 scree_status measure_draw_network(const char *folder, const scree_average_sample *sample, const uint8_t *linked,
                                   scree_error *error);
+
+/// Draws the displacements of a plane sample on the grains of its earlier state, snapshot number `place` of the run.
+/// values: its own, with where it lies. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT; memory.
+scree_status measure_draw_displacements(const char *folder, const char *directory, size_t place,
+                                        const scree_average_sample *sample, const scree_average_table *values,
+                                        scree_error *error);
 
 /// Tells a line, printf-like.
 __attribute__((format(printf, 2, 3))) void measure_say(const measure_plan *plan, const char *format, ...);

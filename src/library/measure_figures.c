@@ -3,6 +3,7 @@
 
 #include "io/run_directory.h"
 #include "view/chart.h"
+#include "view/displacements.h"
 #include "view/force_figures.h"
 #include "view/links.h"
 #include "view/map.h"
@@ -12,14 +13,27 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_LINES = 7 };
-
 #define LEAST_INSIDE 0.2 /* elements of which less lies in the sample are left white */
 
 /// A figure that has nothing to show is left out.
 static scree_status forgive(scree_status status)
 {
     return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
+}
+
+size_t measure_spread(size_t count, size_t k)
+{
+    if (count <= MEASURE_LINES) return k;
+    const size_t gaps = MEASURE_LINES - 1;
+    return (2 * k * (count - 1) + gaps) / (2 * gaps); // the nearest one
+}
+
+void measure_title(char *title, size_t size, const char *text, size_t count)
+{
+    if (count > MEASURE_LINES)
+        (void)snprintf(title, size, "%s (%d of %zu cuts)", text, MEASURE_LINES, count);
+    else
+        (void)snprintf(title, size, "%s", text);
 }
 
 // ---- cuts --------------------------------------------------------------------------------------------------------
@@ -98,45 +112,61 @@ static bool is_angle(const cut_figure *figure)
     return strstr(figure->column, "_angle") != NULL;
 }
 
+/// x, value and the ends of the band along a cut; what is not there is NULL.
+typedef struct cut_line {
+    double *part[4];
+    char label[32];
+} cut_line;
+
+static scree_status take_cut(const measure_plan *plan, const measure_found *found, const cut_figure *figure, size_t cut,
+                             bool bands, cut_line *of, scree_error *error)
+{
+    const scree_average_table *cuts = &found->mean.of[MEASURE_CUTS];
+    // A factor below zero exchanges the ends of the band.
+    const measure_tables *ends[2] = {&found->low, &found->high}, *low = ends[figure->factor < 0],
+                         *high = ends[figure->factor > 0];
+    const size_t column = find_column(cuts, figure->column), n = plan->average.points, first = cut * n;
+    of->part[0] = take(cuts, scree_average_table_find(cuts, "x"), first, n, 1e3, error);
+    of->part[1] = take(cuts, column, first, n, figure->factor, error);
+    if (bands) {
+        of->part[2] = take(&low->of[MEASURE_CUTS], column, first, n, figure->factor, error);
+        of->part[3] = take(&high->of[MEASURE_CUTS], column, first, n, figure->factor, error);
+    }
+    for (int i = 1; i < 4; i++) leave_out(cuts, first, n, figure->least, of->part[i]);
+    (void)snprintf(of->label, sizeof of->label, "height %.2g", plan->average.height[cut]);
+    const bool taken = of->part[0] && of->part[1] && (!bands || (of->part[2] && of->part[3]));
+    return taken ? SCREE_OK : SCREE_ERROR_IO;
+}
+
 static scree_status draw_cuts(const char *folder, const measure_plan *plan, const measure_found *found,
                               const cut_figure *figure, scree_error *error)
 {
     const scree_average_table *cuts = &found->mean.of[MEASURE_CUTS];
-    const size_t column = find_column(cuts, figure->column), x = scree_average_table_find(cuts, "x");
-    const size_t count = plan->average.cuts < MOST_LINES ? plan->average.cuts : MOST_LINES, n = plan->average.points;
+    const size_t all = plan->average.cuts, count = all < MEASURE_LINES ? all : MEASURE_LINES, n = plan->average.points;
     const bool bands = found->runs > 1 && found->low.of[MEASURE_CUTS].rows > 0 && !is_angle(figure);
-    scree_chart_line line[MOST_LINES] = {{0}};
-    double *part[MOST_LINES][4] = {{NULL}};
-    char label[MOST_LINES][32], path[PATH_MAX];
-    if (column == SIZE_MAX || x == SIZE_MAX) return SCREE_OK;
+    scree_chart_line line[MEASURE_LINES] = {{0}};
+    cut_line of[MEASURE_LINES] = {{{NULL}, ""}};
+    char path[PATH_MAX], title[160];
+    if (find_column(cuts, figure->column) == SIZE_MAX || scree_average_table_find(cuts, "x") == SIZE_MAX)
+        return SCREE_OK;
     scree_status status = scree_path_join(path, sizeof path, folder, figure->file, error);
     for (size_t k = 0; k < count && !status; k++) {
-        part[k][0] = take(cuts, x, k * n, n, 1e3, error);
-        part[k][1] = take(cuts, column, k * n, n, figure->factor, error);
-        // A factor below zero exchanges the ends of the band.
-        const scree_average_table *low = &found->low.of[MEASURE_CUTS], *high = &found->high.of[MEASURE_CUTS];
-        part[k][2] = bands ? take(figure->factor > 0 ? low : high, column, k * n, n, figure->factor, error) : NULL;
-        part[k][3] = bands ? take(figure->factor > 0 ? high : low, column, k * n, n, figure->factor, error) : NULL;
-        for (int i = 1; i < 4; i++) leave_out(cuts, k * n, n, figure->least, part[k][i]);
-        if (!part[k][0] || !part[k][1] || (bands && (!part[k][2] || !part[k][3]))) status = SCREE_ERROR_IO;
-        (void)snprintf(label[k], sizeof label[k], "height %.2g", plan->average.height[k]);
-        line[k] = (scree_chart_line){.x = part[k][0],
-                                     .y = part[k][1],
-                                     .low = part[k][2],
-                                     .high = part[k][3],
+        status = take_cut(plan, found, figure, measure_spread(all, k), bands, &of[k], error);
+        line[k] = (scree_chart_line){.x = of[k].part[0],
+                                     .y = of[k].part[1],
+                                     .low = of[k].part[2],
+                                     .high = of[k].part[3],
                                      .count = n,
-                                     .label = label[k],
+                                     .label = of[k].label,
                                      .points = n < 3 || is_angle(figure),
                                      .bare = is_angle(figure)};
     }
-    const scree_chart chart = {.title = figure->title,
-                               .x_label = "x from the axis (mm)",
-                               .y_label = figure->label,
-                               .line = line,
-                               .line_count = count};
+    measure_title(title, sizeof title, figure->title, all);
+    const scree_chart chart = {
+        .title = title, .x_label = "x from the axis (mm)", .y_label = figure->label, .line = line, .line_count = count};
     if (!status) status = forgive(scree_chart_draw(path, &chart, error));
     for (size_t k = 0; k < count; k++)
-        for (int i = 0; i < 4; i++) scree_release(&part[k][i]);
+        for (int i = 0; i < 4; i++) scree_release(&of[k].part[i]);
     return status;
 }
 
@@ -162,8 +192,8 @@ static const map_figure map_figures[] = {
      "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NO_LINES},
     {MEASURE_MAP, "map-stress-change", "stress_change_yy", "Change of the vertical pressure",
      "change of the vertical pressure (kPa)", -1e-3, SCREE_COLOUR_DIVERGING, NO_LINES},
-    {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor", "tr F", 1, SEQUENTIAL, "fabric_angle",
-     ", and its major axis"},
+    {MEASURE_MAP, "map-fabric", "fabric_trace_inside", "Trace of the fabric tensor inside", "tr F", 1, SEQUENTIAL,
+     "fabric_angle", ", and its major axis"},
     {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes", "order (0 none, 1 all alike)", 1, SEQUENTIAL,
      "axes_angle", ", and their mean direction"},
     {MEASURE_MAP, "map-velocity", "velocity_x", "Horizontal velocity", "velocity x (m/s)", 1, SCREE_COLOUR_DIVERGING,
@@ -291,6 +321,25 @@ scree_status measure_draw_network(const char *folder, const scree_average_sample
                                .width = 0.22 * sample->mean_radius};
     status = forgive(scree_links_draw(path, &links, error));
     scree_release(&link);
+    return status;
+}
+
+scree_status measure_draw_displacements(const char *folder, const char *directory, size_t place,
+                                        const scree_average_sample *sample, const scree_average_table *values,
+                                        scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_snapshot from;
+    const double axis = values->value[scree_average_table_find(values, "axis")];
+    // As far beside the foot of a pile as its other figures show; grains may have rolled farther.
+    const double half = 1.2 * values->value[scree_average_table_find(values, "half_width")];
+    const double shown[2] = {axis - half, axis + half};
+    scree_status status = scree_folders_make(folder, error);
+    if (!status) status = scree_path_join(path, sizeof path, folder, "displacements", error);
+    if (!status) status = scree_snapshot_read(directory, place, &from, error);
+    if (status) return status;
+    status = scree_displacements_draw(path, &from, sample, shown, error);
+    scree_snapshot_destroy(&from);
     return status;
 }
 

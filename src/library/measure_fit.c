@@ -18,7 +18,6 @@
 #include "library/measure.h"
 
 #include "io/run_directory.h"
-#include "view/chart.h"
 
 #include <limits.h>
 #include <math.h>
@@ -31,7 +30,7 @@
 #define FLANK_END 0.8
 #define DEGREE    (M_PI / 180)
 
-enum { COMPONENTS = MEASURE_FIT_COMPONENTS, CHART_LINES = 7 };
+enum { COMPONENTS = MEASURE_FIT_COMPONENTS };
 
 /// What the search of one set of piles sees.
 typedef struct piles {
@@ -175,6 +174,7 @@ static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *err
         if (!solved) status = scree_fit_begin(fits->theory[k], &fit, error);
         for (size_t i = 0; i < fits->rows && solved; i++) fits->row[i].theory[k] = stress[i];
         fits->solved[k] = solved;
+        fits->fit[k] = fit;
         if (!status) measure_fit_tell_theory(fits, k, &fit, solved, weight);
     }
     scree_release(&fitted);
@@ -185,8 +185,7 @@ static scree_status fit_all(measure_fits *fits, const piles *p, scree_error *err
 
 // ---- closures ----------------------------------------------------------------------------------------------------
 
-/// Each side with its own slope.
-static double mohr_coulomb(const measure_fits *fits, const scree_fit_point *point)
+double measure_fit_yielding(const measure_fits *fits, const scree_fit_point *point)
 {
     const scree_stress_2d *s = &point->stress;
     const double slope = fits->slope[point->x < 0 ? 0 : 1];
@@ -207,7 +206,7 @@ static void tell_yield_above(measure_fits *fits, const char *where, double from,
         const measure_fit_row *r = &fits->row[k];
         const double place = place_above(fits, &r->point);
         if (r->cut == 0 || place < from || place > to) continue;
-        yielding += mohr_coulomb(fits, &r->point);
+        yielding += measure_fit_yielding(fits, &r->point);
         number++;
     }
     measure_fit_tell(fits, "mohr_coulomb", where, "1", true, number > 0 ? yielding / number : NAN);
@@ -221,7 +220,7 @@ static void tell_closure(measure_fits *fits, const char *where, double from, dou
         const measure_fit_row *r = &fits->row[k];
         const double place = fabs(r->point.x) / half;
         if (r->cut != 0 || place < from || place > to) continue;
-        yielding += mohr_coulomb(fits, &r->point);
+        yielding += measure_fit_yielding(fits, &r->point);
         ratio += r->point.stress.xx / r->point.stress.yy;
         number++;
     }
@@ -303,7 +302,7 @@ static void put_rows(FILE *file, const measure_plan *plan, const measure_fits *f
         const measure_fit_row *r = &fits->row[i];
         const scree_stress_2d *s = &r->point.stress, *e = &r->point.error;
         fprintf(file, "%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", plan->average.height[r->cut], r->point.x,
-                r->point.y, r->fitted, mohr_coulomb(fits, &r->point), s->xx, s->yy, s->xy, e->xx, e->yy, e->xy);
+                r->point.y, r->fitted, measure_fit_yielding(fits, &r->point), s->xx, s->yy, s->xy, e->xx, e->yy, e->xy);
         for (size_t k = 0; k < fits->count; k++) {
             const scree_stress_2d *t = &r->theory[k];
             const double none = fits->solved[k] ? 1 : NAN;
@@ -323,93 +322,4 @@ scree_status measure_fit_write(const char *folder, const measure_plan *plan, con
     if (status) return status;
     put_rows(file, plan, fits);
     return scree_replace_finish(path, file, true, error);
-}
-
-// ---- figures -----------------------------------------------------------------------------------------------------
-
-/// A component of the lowest cut with the theories.
-static scree_status draw_component(const char *folder, const char *file, const char *label, int component,
-                                   const measure_plan *plan, const measure_fits *fits, scree_error *error)
-{
-    char path[PATH_MAX], name[CHART_LINES][32];
-    double *number = NULL;
-    size_t n = 0, lines = 1;
-    while (n < fits->rows && fits->row[n].cut == 0) n++;
-    scree_chart_line line[CHART_LINES] = {{0}};
-    scree_status status = scree_path_join(path, sizeof path, folder, file, error);
-    if (!status) status = scree_allocate(&number, (4 + fits->count) * (n + 1), sizeof *number, error);
-    if (status) return status;
-    double *x = number, *y = x + n, *low = y + n, *high = low + n;
-    for (size_t i = 0; i < n; i++) {
-        measure_fit_row r = fits->row[i];
-        const double half = *measure_fit_component(&r.point.error, component);
-        x[i] = 1e3 * r.point.x;
-        y[i] = 1e-3 * *measure_fit_component(&r.point.stress, component);
-        low[i] = y[i] - 1e-3 * half;
-        high[i] = y[i] + 1e-3 * half;
-    }
-    line[0] = (scree_chart_line){x, y, low, high, n, .label = "piles, standard error", .points = true, .bare = true};
-    for (size_t k = 0; k < fits->count && lines < CHART_LINES; k++) {
-        double *theory = high + (k + 1) * n;
-        if (!fits->solved[k]) continue;
-        for (size_t i = 0; i < n; i++) {
-            measure_fit_row r = fits->row[i];
-            theory[i] = 1e-3 * *measure_fit_component(&r.theory[k], component);
-        }
-        // An underscore would begin a subscript.
-        (void)snprintf(name[lines], sizeof name[lines], "%s", fits->theory[k]);
-        for (char *c = name[lines]; *c; c++) *c = *c == '_' ? ' ' : *c;
-        line[lines] = (scree_chart_line){x, theory, .count = n, .label = name[lines]};
-        lines++;
-    }
-    const scree_chart chart = {.title = "Lowest cut and the fitted theories",
-                               .x_label = plan->two_slopes ? "x from the apex (mm)" : "distance from the axis (mm)",
-                               .y_label = label,
-                               .line = line,
-                               .line_count = lines};
-    status = scree_chart_draw(path, &chart, error);
-    scree_release(&number);
-    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
-}
-
-static scree_status draw_yielding(const char *folder, const measure_plan *plan, const measure_fits *fits,
-                                  scree_error *error)
-{
-    char path[PATH_MAX], label[CHART_LINES][32];
-    double *number = NULL;
-    size_t lines = 0;
-    scree_chart_line line[CHART_LINES] = {{0}};
-    scree_status status = scree_path_join(path, sizeof path, folder, "mohr-coulomb", error);
-    if (!status) status = scree_allocate(&number, 2 * fits->rows, sizeof *number, error);
-    if (status) return status;
-    for (size_t i = 0; i < fits->rows; i++) {
-        const measure_fit_row *r = &fits->row[i];
-        number[i] = 1e3 * r->point.x;
-        number[fits->rows + i] = mohr_coulomb(fits, &r->point);
-        const bool first = i == 0 || fits->row[i - 1].cut != r->cut;
-        if (first && lines == CHART_LINES) break;
-        if (first) {
-            (void)snprintf(label[lines], sizeof label[lines], "height %.2g", plan->average.height[r->cut]);
-            line[lines] = (scree_chart_line){.x = number + i, .y = number + fits->rows + i, .label = label[lines]};
-            lines++;
-        }
-        line[lines - 1].count++;
-    }
-    const scree_chart chart = {.title = "Mohr-Coulomb expression by height: 0 where the pile yields",
-                               .x_label = plan->two_slopes ? "x from the apex (mm)" : "distance from the axis (mm)",
-                               .y_label = "((xx - yy)^2 + 4 xy^2) / ((xx + yy)^2 sin^2 slope) - 1",
-                               .line = line,
-                               .line_count = lines};
-    status = scree_chart_draw(path, &chart, error);
-    scree_release(&number);
-    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
-}
-
-scree_status measure_fit_draw(const char *folder, const measure_plan *plan, const measure_fits *fits,
-                              scree_error *error)
-{
-    scree_status status = draw_component(folder, "fits-vertical", "vertical pressure (kPa)", 1, plan, fits, error);
-    if (!status) status = draw_component(folder, "fits-horizontal", "horizontal pressure (kPa)", 0, plan, fits, error);
-    if (!status) status = draw_component(folder, "fits-shear", "shear stress (kPa)", 2, plan, fits, error);
-    return status ? status : draw_yielding(folder, plan, fits, error);
 }

@@ -295,6 +295,9 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
     status = move(directory, from, plan, &before, &sample, error);
     if (!status) status = name_snapshot(finish(plan, &sample, error), error);
     if (!status) status = measure_sample(directory, plan, first, frame, &before, &sample, tables, error);
+    if (!status && from && plan->network && sample.dimension == 2)
+        status = measure_draw_displacements(plan->network, directory, from->place, &sample, &tables->of[MEASURE_VALUES],
+                                            error);
     if (!status && sample.dimension == 2)
         status = measure_response(directory, sample.thickness, &tables->of[MEASURE_RESPONSE], error);
     scree_average_sample_destroy(&before);

@@ -105,6 +105,7 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
         return SCREE_OK;
     }
     if (status && error) *error = problem;
+    if (!status) scree_summary_set_text(run->summary, "compared_with", model->stages[n->stage].name);
     for (size_t k = 0; k < SCREE_INCREMENT_ROWS && !status; k++)
         scree_summary_set_number(run->summary, scree_increment_rows[k].name, value[k]);
     return status;
@@ -118,6 +119,6 @@ const scree_module scree_module_increments = {
     .rules = rules,
     .numbers_size = sizeof(numbers),
     .resolve = resolve,
-    .results = {.row = scree_increment_rows, .count = SCREE_INCREMENT_ROWS},
+    .results = {.row = scree_increment_rows, .count = SCREE_INCREMENT_ROWS + 1},
     .conclude = conclude,
 };

@@ -13,6 +13,7 @@
     row(scenes)       /* single snapshots */ \
     row(cell_maps)    /* cells of a snapshot */ \
     row(fluctuations) /* displacements in the strain windows */ \
+    row(displacements) /* since an earlier stage */ \
     row(distortion)   /* cells in the strain windows */ \
     row(breaks)       /* bonds that broke */ \
     row(iterates)     /* strains of particles that are held */ \

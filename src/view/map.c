@@ -17,6 +17,7 @@ enum { MOST_LINES = 1500 };
 #define LEGEND     118.0
 #define BAR_WIDTH  11.0
 #define BAR_HEIGHT 150.0
+#define BAR_LOWEST 40.0 /* of a map that is lower the bar reaches below it */
 
 static const scree_colour ink = {0.13, 0.13, 0.15}, quiet = {0.45, 0.45, 0.48};
 
@@ -25,6 +26,8 @@ typedef struct drawing {
     scree_limits limits;
     double scale; ///< pt per m
     double width, height;
+    scree_colour_map colours;
+    bool below_zero; ///< the strong end of the colours is the low one
 } drawing;
 
 static double page_x(const drawing *d, double x)
@@ -42,6 +45,12 @@ static scree_text_style text_of(double size)
     return (scree_text_style){.size = size, .colour = ink};
 }
 
+/// Colour of a place between the limits, 0 to 1.
+static scree_colour colour_at(const drawing *d, double part)
+{
+    return scree_colour_at(d->colours, d->below_zero ? 1 - part : part);
+}
+
 static void draw_cells(const drawing *d, cairo_t *cairo)
 {
     const scree_map *map = d->map;
@@ -52,7 +61,7 @@ static void draw_cells(const drawing *d, cairo_t *cairo)
         if (!isfinite(map->value[k])) continue;
         const double part = (map->value[k] - d->limits.low) / (d->limits.high - d->limits.low);
         const size_t i = k % map->columns, j = k / map->columns;
-        scree_page_colour(cairo, scree_colour_at(map->colours, part));
+        scree_page_colour(cairo, colour_at(d, part));
         cairo_rectangle(cairo, LEFT + (double)i * dx, TOP + d->height - (double)(j + 1) * dy, dx, dy);
         cairo_fill(cairo);
     }
@@ -85,6 +94,9 @@ static void draw_lines(const drawing *d, cairo_t *cairo)
     size_t gap[2];
     if (!map->axis) return;
     find_gaps(d, gap);
+    cairo_save(cairo);
+    cairo_rectangle(cairo, LEFT, TOP, d->width, d->height);
+    cairo_clip(cairo);
     cairo_set_line_width(cairo, 0.9);
     scree_page_colour(cairo, ink);
     for (size_t j = gap[1] / 2; j < map->rows; j += gap[1])
@@ -98,6 +110,7 @@ static void draw_lines(const drawing *d, cairo_t *cairo)
             cairo_line_to(cairo, x + half * cos(map->axis[k]), y - half * sin(map->axis[k]));
         }
     cairo_stroke(cairo);
+    cairo_restore(cairo);
 }
 
 /// Ticks in millimetres along both axes.
@@ -137,13 +150,14 @@ static double draw_bar(const drawing *d, cairo_t *cairo)
     const double x = LEFT + d->width + 22,
                  below = scree_text_paragraph(cairo, x, TOP - 2, LEGEND - 22, d->map->name, text_of(9));
     const scree_ticks ticks = scree_ticks_make(d->limits.low, d->limits.high);
-    const double top = below + (ticks.factor[0] ? 20 : 8), bottom = top + BAR_HEIGHT;
+    const double top = below + (ticks.factor[0] ? 20 : 8),
+                 bottom = top + fmin(BAR_HEIGHT, fmax(BAR_LOWEST, TOP + d->height - top));
     cairo_pattern_t *pattern = cairo_pattern_create_linear(0, bottom, 0, top);
     for (int k = 0; k <= 48; k++) {
-        const scree_colour c = scree_colour_at(d->map->colours, k / 48.0);
+        const scree_colour c = colour_at(d, k / 48.0);
         cairo_pattern_add_color_stop_rgb(pattern, k / 48.0, c.red, c.green, c.blue);
     }
-    cairo_rectangle(cairo, x, top, BAR_WIDTH, BAR_HEIGHT);
+    cairo_rectangle(cairo, x, top, BAR_WIDTH, bottom - top);
     cairo_set_source(cairo, pattern);
     cairo_fill_preserve(cairo);
     cairo_pattern_destroy(pattern);
@@ -189,12 +203,25 @@ static double bar_end(const drawing *d)
     return end;
 }
 
+/// Half of a diverging scale would not be used by values of one sign, but for the few that lie beyond the limits.
+static scree_status find_colours(drawing *d, scree_error *error)
+{
+    const scree_map *map = d->map;
+    const size_t count = map->columns * map->rows;
+    d->colours = map->colours;
+    scree_status status = scree_limits_find(map->value, count, false, &d->limits, error);
+    if (status || map->colours != SCREE_COLOUR_DIVERGING) return status;
+    if (d->limits.low < 0 && d->limits.high > 0) return scree_limits_find(map->value, count, true, &d->limits, error);
+    d->colours = SCREE_COLOUR_SEQUENTIAL;
+    d->below_zero = d->limits.high <= 0 && d->limits.low < 0;
+    return SCREE_OK;
+}
+
 scree_status scree_map_draw(const char *path, const scree_map *map, scree_error *error)
 {
     drawing d = {.map = map};
     const double wide = map->high[0] - map->low[0], high = map->high[1] - map->low[1];
-    scree_status status = scree_limits_find(map->value, map->columns * map->rows,
-                                            map->colours == SCREE_COLOUR_DIVERGING, &d.limits, error);
+    scree_status status = find_colours(&d, error);
     if (status) return status;
     if (isnan(d.limits.smallest) || !(wide > 0) || !(high > 0))
         return scree_error_set(error, SCREE_ERROR_INPUT, "there is no number to draw");

@@ -1,5 +1,5 @@
-/// Maps: a field on a grid as coloured rectangles, with axes, a colour bar, and where there are some arrows or lines on
-/// top. NAME.svg and NAME.png.
+/// Maps: a field on a grid as coloured rectangles, with axes, a colour bar, and where there are some lines on top.
+/// NAME.svg and NAME.png. (Arrows are drawn on grains: view/displacements.h.)
 #ifndef SCREE_VIEW_MAP_H
 #define SCREE_VIEW_MAP_H
 
@@ -9,9 +9,9 @@
 typedef struct scree_map {
     const char *title, *name; ///< above; of the field, with its unit
     size_t columns, rows;
-    double low[2], high[2]; ///< m, corners of what the rectangles fill
-    const double *value;    ///< columns x rows, along a row first, the lowest row first; NAN: left white
-    scree_colour_map colours;
+    double low[2], high[2];   ///< m, corners of what the rectangles fill
+    const double *value;      ///< columns x rows, along a row first, the lowest row first; NAN: left white
+    scree_colour_map colours; ///< diverging: of values of one sign a sequential one all the same, strong far from zero
     const double *axis;   ///< NULL, or an angle [rad] a rectangle, drawn as a short line; NAN: none. of large maps one
                           ///< for several rectangles, longer by as much
     const double *length; ///< NULL, or of this line, 0 to 1

@@ -260,6 +260,7 @@ static scree_status measure_arrows(scree_scene_view *view, scree_error *error)
         double size = hypot(scene->arrow_x[k], scene->arrow_y[k]);
         if (isfinite(size) && scree_scene_drawn(s, k)) length[count++] = size;
     }
+    view->arrows = count;
     scree_sort(length, count);
     double typical = scree_quantile(length, count, 0.95);
     if (!(typical > 0)) typical = count > 0 ? length[count - 1] : 0;

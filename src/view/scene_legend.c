@@ -157,7 +157,7 @@ static double draw_reference_arrow(const scree_scene_view *view, cairo_t *cairo,
     if (view->arrow_scale <= 0 || view->scene->arrows_have_no_size) return y;
     double stretch = view->arrow_scale * view->scale;
     double reference = scree_round_below(36 / stretch);
-    char length[64], factor[48], text[128];
+    char length[64], factor[48], text[192];
     scree_length_text(length, sizeof length, reference);
     scree_number_text(factor, sizeof factor, view->arrow_scale, 3);
     if (view->arrow_scale >= 0.001 && view->arrow_scale < 1e4)
@@ -167,7 +167,9 @@ static double draw_reference_arrow(const scree_scene_view *view, cairo_t *cairo,
     scree_page_colour(cairo, scree_scene_strong);
     cairo_fill(cairo);
     scree_text_show(cairo, x + reference * stretch + 6, y + 3, 0, length, scree_scene_text(9));
-    (void)snprintf(text, sizeof text, "arrows drawn %s × their true length", factor);
+    const int used = snprintf(text, sizeof text, "arrows drawn %s × their true length", factor);
+    if (view->arrows < view->disc_count)
+        (void)snprintf(text + used, sizeof text - (size_t)used, ", of %zu of %zu grains", view->arrows, view->disc_count);
     scree_text_style note = scree_scene_text(7);
     note.colour = scree_scene_quiet;
     return scree_text_paragraph(cairo, x, y + 7, SCREE_SCENE_LEGEND_WIDTH, text, note) + GAP;

@@ -289,7 +289,9 @@ void scree_scene_arrow(const scree_scene_view *view, cairo_t *cairo, double x, d
     double longest = hypot(view->page_width, view->page_height);
     double ex = dx / length, ey = dy / length;
     if (length > longest) length = longest;
-    double shaft = fmin(0.7, fmax(0.3, 0.09 * 2 * view->mean_radius * view->scale)) / 2;
+    // Where few discs have arrows, these have room.
+    const double room = view->arrows > 0 ? sqrt((double)view->disc_count / (double)view->arrows) : 1;
+    double shaft = fmin(0.7, fmax(0.3, 0.09 * room * 2 * view->mean_radius * view->scale)) / 2;
     double head = fmin(0.45 * length, 9 * shaft), half = 0.42 * head;
     shaft = fmin(shaft, half / 2);
     const double outline[7][2] = {{0, shaft},  {length - head, shaft}, {length - head, half},

@@ -28,6 +28,7 @@ typedef struct scree_scene_view {
     double mean_force;                        ///< N, magnitude over contacts between discs that bear one; 0: none
     bool tension;                             ///< some of them pull
     double arrow_scale;                       ///< drawn over true length; 0: no arrows
+    size_t arrows;                            ///< discs that have one
     double overhang_low[2], overhang_high[2]; ///< m, how far arrows reach beyond the corners
     // where, pt
     double scale;                    ///< pt per m

@@ -35,10 +35,15 @@ expect 0 'bulk_modulus_core' "$scree" measure run320 --fields stress,fabric,dens
 for name in bulk_modulus_core young_modulus_core strain_cambou_deviation fabric_factor_theory bulk_modulus_fabric_correlation; do
     same "$(number one $name)" "$(number run320 $name)" "the run's own $name"
 done
-for file in cuts-bulk-modulus.png fabric-bulk-modulus.png invariants.png map-bulk-modulus.png kernel-bulk-modulus.png; do
+for file in cuts-bulk-modulus.png fabric-bulk-modulus.png invariants.png map-bulk-modulus.png kernel-bulk-modulus.png displacements.png; do
     checks=$((checks + 1))
     [ -s "one/$file" ] || complain "there is no one/$file"
 done
+# Displacements are arrows, in figures of the run, too; without a comparison there are none.
+same "$(number run320 compared_with)" settle "the stage of the earlier state"
+expect 0 'displacements.svg' "$scree" plot run320 --only displacements
+expect 0 '' "$scree" run change.yaml "${small[@]}" --set measure.compare_with=auto --set stages.change.duration="10 ms" -o alone
+expect 2 'no figure of this name' "$scree" plot alone --only displacements
 checks=$((checks + 1))
 head -1 one/kernel.csv | grep -q 'stress_change_xx \[Pa\].*gradient_xy \[1\].*bulk_modulus \[Pa\]' || complain "smooth constants"
 

@@ -39,10 +39,14 @@ checks=$((checks + 1))
 awk -F, -v whole="$("$scree" get one kernel_residual)" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "residual [1]") r = k; next }
     { if ($r > most) most = $r } END { exit !(r && most > 0 && (most / whole - 1) ^ 2 < 1e-12) }' one/kernel.csv || complain "residuals of one/kernel.csv"
 # A map of more places than lines can be told apart still has lines, of which one stands for several places.
-expect 0 'holds 2 grains' "$scree" measure pile1 --element 2 --grid 100x50 -o fine
+expect 0 'holds 2 grains' "$scree" measure pile1 --element 2 --grid 100x50 --cuts 15 -o fine
 checks=$((checks + 1))
 lines=$(grep 'stroke-width:0.9' fine/map-stress-vertical.svg | grep -o 'M ' | wc -l)
 [ "$lines" -gt 300 ] && [ "$lines" -le 1500 ] || complain "$lines lines on a map of 100 x 50"
+# Of many cuts seven are drawn, from the lowest to the highest.
+same "$(head -1 fine/cuts-stress-vertical.csv | grep -o 'height [0-9.]*' | tr '\n' ' ')" \
+    "height 0 height 0.13 height 0.33 height 0.47 height 0.6 height 0.8 height 0.93 " "cuts of 15 that are drawn"
+grep -q '(7 of 15 cuts)' fine/cuts-stress-vertical.gp || complain "the title does not say that cuts are left out"
 # Elements of 6 grains are few, and said to be.
 expect 0 'warning: pile1: an element holds 6 grains, fewer than 30' "$scree" measure pile1 --no-figures -o few
 

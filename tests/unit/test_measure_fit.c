@@ -1,10 +1,13 @@
 /// Fits to ensembles of made-up piles: tables as those of measured piles with the stress of a theory give its
 /// parameters back, in the frame and with the signs of measured stresses; with noise within their intervals; an
-/// asymmetric part is that of the mirror image and goes.
+/// asymmetric part is that of the mirror image and goes. The figures have all theories, with their kinks where these
+/// are, and of many cuts some from bottom to top.
 #include "fit_fixture.h"
+#include "view_testing.h"
 
 #include "base/random.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -232,9 +235,111 @@ static void test_two_slopes(void **state)
     measure_tables_destroy(&found.mean);
 }
 
+/// Place of the largest bend of a curve, from a column of the data of a chart, and the distance of its places.
+static double find_bend(const char *text, int column, double *gap)
+{
+    enum { MOST = 1000 };
+    double x[MOST], y[MOST], bend = 0, place = NAN;
+    int rows = 0;
+    for (const char *line = strchr(text, '\n') + 1; *line && rows < MOST; line = strchr(line, '\n') + 1) {
+        const char *at = line;
+        x[rows] = strtod(at, NULL);
+        for (int k = 0; k < column; k++) at = strchr(at, ',') + 1;
+        y[rows++] = strtod(at, NULL);
+    }
+    for (int k = 1; k + 1 < rows; k++) {
+        const double here = fabs(y[k + 1] - 2 * y[k] + y[k - 1]);
+        if (here > bend) bend = here, place = x[k];
+    }
+    *gap = x[1] - x[0];
+    return place;
+}
+
+/// Seven theories are seven lines, the piles one more; the wedge bends where the boundary of its core, at its
+/// angle to the axis, meets the cut.
+static void test_figure(void **state)
+{
+    (void)state;
+    scree_error error;
+    measure_tables each[PILES];
+    measure_found found;
+    measure_plan plan;
+    char name[PATH_MAX + 32];
+    double gap;
+    make(0.74, 1e-7, 1, each, &found, &plan);
+    scree_release(&found.fits->row);
+    scree_release(&found.fits);
+    plan = (measure_plan){
+        .average = plan.average,
+        .fit = {"ife", "bcc", "osl", "wedge_dip", "wedge_smooth", "wedge_peak", "wedge_core"},
+        .fits = 7,
+    };
+    check(measure_fit(each, PILES, &plan, &found, &error), &error);
+    check(measure_fit_draw(scratch, &plan, found.fits, &error), &error);
+    (void)snprintf(name, sizeof name, "%s/fits-vertical.csv", scratch);
+    char *text = read_whole(name);
+    assert_non_null(strstr(text, "\"ife\",\"bcc\",\"osl\",\"wedge dip\",\"wedge smooth\",\"wedge peak\",\"wedge core\","
+                                 "\"distance from the axis (mm)\",\"piles, standard error\",low,high\n"));
+    const double core = number_of(&found, "fit_wedge_core_core").value * M_PI / 180;
+    const double place = 1e3 * (HEIGHT - 0.5 * SIDE) * tan(core), bend = find_bend(text, 7, &gap);
+    // Chords from one measured place to the next would bend at these, 9 mm from one to the next.
+    assert_true(gap > 0 && gap < 0.5);
+    assert_near(bend, place, gap);
+    free(text);
+    forget(each, PILES, &found);
+}
+
+/// All cuts where they are few; of many seven, at distances that differ by one at most, from the first to the last.
+static void test_spread(void **state)
+{
+    (void)state;
+    for (size_t count = 1; count <= SCREE_AVERAGE_CUTS; count++) {
+        const size_t lines = count < MEASURE_LINES ? count : MEASURE_LINES;
+        size_t least = SIZE_MAX, most = 0;
+        assert_int_equal(measure_spread(count, 0), 0);
+        assert_int_equal(measure_spread(count, lines - 1), count - 1);
+        for (size_t k = 1; k < lines; k++) {
+            const size_t gap = measure_spread(count, k) - measure_spread(count, k - 1);
+            least = gap < least ? gap : least;
+            most = gap > most ? gap : most;
+        }
+        assert_true(lines < 2 || (least >= 1 && most - least <= 1));
+    }
+}
+
+/// Where piles yield, of 13 cuts of which the last has no place within them.
+static void test_yielding(void **state)
+{
+    (void)state;
+    enum { ROWS = 36 };
+    scree_error error;
+    char name[PATH_MAX + 32];
+    measure_fit_row row[ROWS];
+    measure_fits fits = {.row = row, .rows = ROWS, .slope = {SLOPE, SLOPE}};
+    measure_plan plan = {.average = {.cuts = 13, .points = POINTS}};
+    for (size_t k = 0; k < 13; k++) plan.average.height[k] = 0.05 * (double)k;
+    for (size_t k = 0; k < ROWS; k++)
+        row[k] = (measure_fit_row){
+            .cut = k / 3, .point = {.x = 0.01 * (double)(k % 3), .y = 0.1, .stress = {.xx = 1, .yy = 2, .xy = 0}}};
+    check(measure_fit_draw(scratch, &plan, &fits, &error), &error);
+    (void)snprintf(name, sizeof name, "%s/mohr-coulomb.csv", scratch);
+    char *text = read_whole(name), heads[512] = "";
+    for (const char *at = strstr(text, "\"height"); at; at = strstr(at + 1, "\"height"))
+        (void)snprintf(heads + strlen(heads), sizeof heads - strlen(heads), "%.*s ", (int)strcspn(at + 8, "\""),
+                       at + 8);
+    // Of 12 the numbers 0, 2, 4, 6, 7, 9, 11.
+    assert_string_equal(heads, "0 0.1 0.2 0.3 0.35 0.45 0.55 ");
+    free(text);
+    (void)snprintf(name, sizeof name, "%s/mohr-coulomb.gp", scratch);
+    text = read_whole(name);
+    assert_non_null(strstr(text, "(7 of 12 cuts)"));
+    free(text);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact), cmocka_unit_test(test_noise),
-                                       cmocka_unit_test(test_two_slopes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact),      cmocka_unit_test(test_noise),
+                                       cmocka_unit_test(test_two_slopes), cmocka_unit_test(test_figure),
+                                       cmocka_unit_test(test_spread),     cmocka_unit_test(test_yielding)};
+    return cmocka_run_group_tests(tests, enter_scratch, leave_scratch);
 }
