@@ -117,7 +117,7 @@ static size_t lay_out(const piles *p, measure_fit_row *row)
 // ---- fits --------------------------------------------------------------------------------------------------------
 
 /// Where searches begin.
-static const double eta_begins[] = {0.5, 0.74, 0.95}, core_begins[] = {0.45, 0.62, 0.8};
+static const double eta_begins[] = {0.5, 0.7, 0.9}, core_begins[] = {0.4, 0.6, 0.8};
 
 static scree_status begin_fit(const char *theory, const double slope[2], double weight, int attempt, scree_fit *fit,
                               scree_error *error)
