@@ -5,6 +5,7 @@
 #include "measure/pile.h"
 #include "shape/outline_extent.h"
 #include "shape/rounding.h"
+#include "source/lowest_wall.h"
 
 /// Rectangles 1.25 times as high as wide, of the area of a disc of RADIUS, laid on their long side: CLOSE is the share
 /// of their height by which they overlap. (What a case lists is looked through as if all were discs: hence the guard.)
@@ -246,12 +247,61 @@ static void discs_have_chords(void **unused)
     assert_true(scree_outline_highest(&disc, 4, 4.5, &height) && height == 5);
 }
 
+// ---- the lowest wall ---------------------------------------------------------------------------------------------
+
+#define WALLS_3D                                                                                                       \
+    "scree: 1\nname: below\ndimension: 3\ngravity: [0, 0, -9.81]\n"                                                    \
+    "materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5}]\n"                          \
+    "particles: {shape: sphere, material: glass, count: 4, distribution: equal, radius: 1 mm}\n"                       \
+    "contact: {law: hertz_mindlin}\nmeasure: {cells: no}\noutput: {figures: no, paraview: no}\n"                       \
+    "walls:\n  - {shape: plane, name: slope, point: [0, 0, 0], normal: [-1, 0, 1]}\n"                                  \
+    "  - {shape: plane, name: lid, point: [0, 0, 5 m], normal: [0, 0, -1]}\n"                                          \
+    "  - {shape: box, name: table, lower: [0, 0, 1 m], upper: [1 m, 1 m, 1.1 m]}\n"                                    \
+    "  - {shape: box, name: pit, lower: [2 m, 0, 1 m], upper: [3 m, 1 m, 1.1 m]}\n"                                    \
+    "sources: [%s]\nstages: [{stage: prepare, method: empty}, {stage: pour}]\n"
+
+/// Walls that plumb lines meet last: a plane that rises with x, at its place there, or the box on whose side the plane
+/// has passed above it; lids and what lies above the source or beside the line are none. Two sources have to agree.
+static void the_lowest_wall_is_found(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *sources;
+        int wall;
+    } cases[] = {
+        {"{source: point, place: [0.5 m, 0.5 m, 3 m], interval: 1 s}", 0},
+        {"{source: point, place: [2.5 m, 0.5 m, 3 m], interval: 1 s}", 3},
+        {"{source: point, place: [2.5 m, 1.5 m, 3 m], interval: 1 s}", 0},
+        {"{source: line, start: [1.5 m, 0.5 m, 3 m], end: [3.3 m, 0.5 m, 3 m], interval: 1 s}", 3},
+        {"{source: point, name: a, place: [0.5 m, 0.5 m, 3 m], interval: 1 s}, "
+         "{source: point, name: b, place: [2.5 m, 1.5 m, 3 m], interval: 1 s}",
+         0},
+        {"{source: point, name: a, place: [0.5 m, 0.5 m, 3 m], interval: 1 s}, "
+         "{source: point, name: b, place: [2.5 m, 0.5 m, 3 m], interval: 1 s}",
+         -1},
+        {"{source: point, place: [3.5 m, 0.5 m, 3 m], interval: 1 s}", -1}, // below the slope
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[2048];
+        scree_error error;
+        scree_simulation s;
+        int wall;
+        (void)snprintf(text, sizeof text, WALLS_3D, cases[k].sources);
+        scree_case *c = case_read(text, NULL, 0);
+        simulation_open(c, 1, &s);
+        check(scree_source_lowest_wall(&s.model, s.work.wall_set, &wall, &error), &error);
+        if (wall != cases[k].wall) fail_msg("case %zu: wall %d", k, wall);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_are_measured), cmocka_unit_test(circles_are_larger),
         cmocka_unit_test(rounding_counts),     cmocka_unit_test(extents_are_those_of_the_outline),
-        cmocka_unit_test(discs_have_chords),
+        cmocka_unit_test(discs_have_chords),   cmocka_unit_test(the_lowest_wall_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
