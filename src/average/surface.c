@@ -1,7 +1,7 @@
 /// Surfaces of samples by columns.
 #include "average/surface.h"
 
-#include "shape/polygon.h"
+#include "shape/outline_extent.h"
 
 #include <math.h>
 
@@ -39,25 +39,6 @@ static double away(const scree_average_surface *s, int axis, int64_t k, double p
     return begin_of(s, axis, k) + 0.5 * s->width[axis] - place;
 }
 
-/// The same with what the rounding of a polygon adds: its outer edges, and discs at its corners.
-static void widen_chord(int count, const double (*corner)[2], double rounding, double dx, double chord[2])
-{
-    for (int k = 0; k < count; k++) {
-        const double *a = corner[k], *b = corner[k + 1 < count ? k + 1 : 0];
-        const double square = rounding * rounding - (dx - a[0]) * (dx - a[0]), length = hypot(b[0] - a[0], b[1] - a[1]);
-        const double out[2] = {rounding * (b[1] - a[1]) / length, rounding * (a[0] - b[0]) / length};
-        if (square >= 0) {
-            chord[0] = fmin(chord[0], a[1] - sqrt(square));
-            chord[1] = fmax(chord[1], a[1] + sqrt(square));
-        }
-        const double from = a[0] + out[0] - dx, to = b[0] + out[0] - dx;
-        if (from * to > 0 || from == to) continue;
-        const double y = a[1] + out[1] - from / (to - from) * (b[1] - a[1]);
-        chord[0] = fmin(chord[0], y);
-        chord[1] = fmax(chord[1], y);
-    }
-}
-
 /// The vertical extent of a grain at (dx, dy) from its centre, relative to that; false: it does not reach there.
 static bool find_chord(const scree_average_sample *sample, const scree_average_grain *grain, double dx, double dy,
                        double chord[2])
@@ -69,17 +50,9 @@ static bool find_chord(const scree_average_sample *sample, const scree_average_g
     if (grain->corner_count == 0) return true;
     double placed[SCREE_POLYGON_CORNERS][2];
     scree_average_outline(sample, grain, placed);
-    chord[0] = INFINITY, chord[1] = -INFINITY;
-    for (uint32_t k = 0; k < grain->corner_count; k++) {
-        const double *a = placed[k], *b = placed[(k + 1) % grain->corner_count];
-        if ((a[0] - dx) * (b[0] - dx) > 0 || a[0] == b[0]) continue;
-        const double y = a[1] + (dx - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
-        chord[0] = fmin(chord[0], y);
-        chord[1] = fmax(chord[1], y);
-    }
-    if (grain->rounding > 0)
-        widen_chord((int)grain->corner_count, (const double(*)[2])placed, grain->rounding, dx, chord);
-    return chord[0] <= chord[1];
+    const scree_core outline = {
+        .corner = (const double(*)[2])placed, .count = (int)grain->corner_count, .rounding = grain->rounding};
+    return scree_outline_chord(&outline, dx, chord);
 }
 
 /// Lets a grain raise and lower the columns that it covers.
@@ -218,10 +191,8 @@ static void lay_columns(const scree_average_sample *sample, scree_average_surfac
 scree_status scree_average_surface_find(const scree_average_sample *sample, scree_average_surface *s,
                                         scree_error *error)
 {
-    *s = (scree_average_surface){.dimension = sample->dimension,
-                                 .width = {1, 1},
-                                 .columns = {1, 1},
-                                 .base = find_base(sample)};
+    *s = (scree_average_surface){
+        .dimension = sample->dimension, .width = {1, 1}, .columns = {1, 1}, .base = find_base(sample)};
     lay_columns(sample, s);
     const size_t count = s->columns[0] * s->columns[1];
     double reach = -INFINITY;

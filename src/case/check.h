@@ -82,6 +82,10 @@ const char *scree_rule_choices(scree_reader *reader, const char *key, const char
 /// Whether the case gives the key at a path a value, right or wrong: not `auto`.
 bool scree_rule_is_said(scree_reader *reader, const char *path);
 
+/// Whether the case gives the key at `path` by what overrules that which gives the one at `other` (quick, --set): what
+/// is not used with it is left out then, without a word.
+bool scree_rule_overrules(scree_reader *reader, const char *path, const char *other);
+
 /// Gives a key of the case a text, in the tree as in its member. path: of the key, "walls.0.file".
 void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member);
 

@@ -112,6 +112,12 @@ bool scree_rule_is_said(scree_reader *reader, const char *path)
     return node && !(node->text && strcmp(node->text, "auto") == 0);
 }
 
+bool scree_rule_overrules(scree_reader *reader, const char *path, const char *other)
+{
+    scree_node *found, *node = find_node(reader, path, &found), *below = find_node(reader, other, &found);
+    return node && below && node->place.origin > below->place.origin;
+}
+
 void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member)
 {
     scree_node *section, *node = find_node(reader, path, &section);

@@ -97,7 +97,7 @@ const scree_result scree_run_results[] = {
     {"corner_rolling_ratio", "1", "mean rotation of the grains near the corners over that of all"},
     {"boundary_roughness", "1", "roughness of a round sample's outline in mean diameters"},
     // its averages
-    {"warnings", NULL, "what has to be known before averages are believed; empty: nothing"},
+    {"warnings", NULL, "what has to be known before averages, or numbers of a pile, are believed; empty: nothing"},
     // a search for a limit
     {"limit", "1", "of a key, between runs that stand and runs that do not, in SI units"},
     {"limit_stands", "1", "nearest value at which a run stands"},

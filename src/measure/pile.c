@@ -3,6 +3,8 @@
 
 #include "base/integer_sum.h"
 #include "comm/comm.h"
+#include "shape/outline_extent.h"
+#include "shape/polygons.h"
 #include "shape/wall_set.h"
 
 #include <math.h>
@@ -114,19 +116,52 @@ static void weigh(const scree_model *model, const scree_state *state, scree_pile
 
 // ---- the outline -------------------------------------------------------------------------------------------------
 
+/// The outline of a grain as it lies; `posed` takes its corners. In 3D it is seen along y.
+static scree_core outline_of(const scree_state *state, size_t row, const scree_pile *pile, double (*posed)[2])
+{
+    const scree_polygons *polygons = scree_polygons_of(state);
+    const double bound = scree_body_bounding_radius(state, row);
+    const scree_corners *of = polygons && polygons->of && !pile->of_circles ? &polygons->of[row] : NULL;
+    if (!of || of->count == 0) return (scree_core){.rounding = bound};
+    const double angle = scree_body_angle(state, row), rounding = scree_rounding_of_row(polygons, row);
+    scree_polygon_turn((int)of->count, (const double(*)[2])polygons->corner + of->first, cos(angle), sin(angle), posed);
+    return (scree_core){
+        .corner = (const double(*)[2])posed, .count = (int)of->count, .bound = bound - rounding, .rounding = rounding};
+}
+
 /// Raises the columns that a grain covers.
 static void cover(const scree_state *state, size_t row, double begin, double width, scree_pile *pile)
 {
     scree_vector place;
+    double posed[SCREE_POLYGON_CORNERS][2], height;
     scree_body_position(state, row, place);
-    const double radius = scree_body_bounding_radius(state, row);
-    const size_t from = (size_t)floor((place[0] - radius - begin) / width);
-    const size_t to = (size_t)floor((place[0] + radius - begin) / width);
+    const scree_core outline = outline_of(state, row, pile, posed);
+    const scree_outline_extent extent = scree_outline_extent_of(&outline);
+    const size_t from = (size_t)floor((place[0] + extent.low[0] - begin) / width);
+    const size_t to = (size_t)floor((place[0] + extent.high[0] - begin) / width);
     for (size_t k = from; k <= to && k < pile->columns; k++) {
         scree_pile_column *column = &pile->column[k];
-        double away = fmax(0, fabs(column->x - place[0]) - 0.5 * width); // its nearest point
-        double height = place[state->dimension - 1] + sqrt(fmax(0, radius * radius - away * away)) - pile->base;
+        if (!scree_outline_highest(&outline, column->x - place[0], 0.5 * width, &height)) continue;
+        height = place[state->dimension - 1] + height - pile->base;
         if (!(column->height >= height)) column->height = height;
+    }
+}
+
+/// Lets the top rise to that of a grain, and the ends of the columns go to its own.
+static void stretch(const scree_state *state, size_t row, scree_pile *pile, double *low, double *high)
+{
+    scree_vector place;
+    double posed[SCREE_POLYGON_CORNERS][2];
+    scree_body_position(state, row, place);
+    const scree_core outline = outline_of(state, row, pile, posed);
+    const scree_outline_extent extent = scree_outline_extent_of(&outline);
+    const double top = place[state->dimension - 1] + extent.high[1], apex = place[0] + extent.top;
+    *low = fmin(*low, place[0] + extent.low[0]);
+    *high = fmax(*high, place[0] + extent.high[0]);
+    // Of two that are equally high the left one, whatever the order of the rows.
+    if (isnan(pile->top) || top > pile->top || (top == pile->top && apex < pile->apex)) {
+        pile->top = top;
+        pile->apex = apex;
     }
 }
 
@@ -135,19 +170,8 @@ static scree_status make_columns(const scree_model *model, const scree_state *st
 {
     const double width = model->mean_radius;
     double low = INFINITY, high = -INFINITY;
-    for (size_t row = 0; row < state->count; row++) {
-        scree_vector place;
-        if (!pile->member[row]) continue;
-        scree_body_position(state, row, place);
-        const double radius = scree_body_bounding_radius(state, row), top = place[state->dimension - 1] + radius;
-        low = fmin(low, place[0] - radius);
-        high = fmax(high, place[0] + radius);
-        // Of two that are equally high the left one, whatever the order of the rows.
-        if (isnan(pile->top) || top > pile->top || (top == pile->top && place[0] < pile->apex)) {
-            pile->top = top;
-            pile->apex = place[0];
-        }
-    }
+    for (size_t row = 0; row < state->count; row++)
+        if (pile->member[row]) stretch(state, row, pile, &low, &high);
     pile->columns = (size_t)floor((high - low) / width) + 1;
     scree_status status = scree_allocate(&pile->column, pile->columns, sizeof *pile->column, error);
     for (size_t k = 0; k < pile->columns && !status; k++)
@@ -264,10 +288,11 @@ static void count_contacts(const scree_state *state, const scree_work *work, con
 
 // ---- the whole ---------------------------------------------------------------------------------------------------
 
-scree_status scree_pile_measure(const scree_model *model, const scree_state *state, const scree_work *work,
-                                const scree_contact_table *table, int plate, scree_pile *pile, scree_error *error)
+static scree_status measure(const scree_model *model, const scree_state *state, const scree_work *work,
+                            const scree_contact_table *table, int plate, bool of_circles, scree_pile *pile,
+                            scree_error *error)
 {
-    *pile = (scree_pile){.base = NAN, .top = NAN, .left = NAN, .right = NAN, .apex = NAN};
+    *pile = (scree_pile){.of_circles = of_circles, .base = NAN, .top = NAN, .left = NAN, .right = NAN, .apex = NAN};
     pile->solid_fraction = pile->coordination = pile->middle = NAN;
     for (int k = 0; k < 2; k++) pile->angle[k] = pile->fitted[k] = NAN;
     scree_status status = find_members(state, work, table, plate, pile, error);
@@ -283,6 +308,18 @@ scree_status scree_pile_measure(const scree_model *model, const scree_state *sta
     }
     if (status) scree_pile_destroy(pile);
     return status;
+}
+
+scree_status scree_pile_measure(const scree_model *model, const scree_state *state, const scree_work *work,
+                                const scree_contact_table *table, int plate, scree_pile *pile, scree_error *error)
+{
+    return measure(model, state, work, table, plate, false, pile, error);
+}
+
+scree_status scree_pile_measure_circles(const scree_model *model, const scree_state *state, const scree_work *work,
+                                        const scree_contact_table *table, scree_pile *pile, scree_error *error)
+{
+    return measure(model, state, work, table, -1, true, pile, error);
 }
 
 void scree_pile_destroy(scree_pile *pile)

@@ -6,9 +6,9 @@
 /// grain without a gap of more than a mean diameter: single grains that have rolled away have no part in widths and
 /// angles.
 ///
-/// Outline. The height of the surface in columns of a mean radius each, seen along y in 3D: the highest point of the
-/// grains' circles in it, above the base, which is the lowest point where a grain touches what stands. Up is the last
-/// axis.
+/// Outline. The height of the surface in columns of a mean radius each, seen along y in 3D: the highest point that the
+/// outlines of grains have anywhere within the column (shape/outline_extent.h), above the base, which is the lowest
+/// point where a grain touches what stands. Up is the last axis.
 ///
 /// Angles of repose [rad], left and right:
 ///   by the corners (R 3.1.1: "base angles")  the slope of the line from the foot of the heap, where its outermost
@@ -21,8 +21,8 @@
 /// of the pile, those with what stands among them; share of the middle: of the force on the plate what acts on the
 /// middle third of the foot.
 ///
-/// Limits: sizes are those of the bounding circles, so that the surface lies somewhat outside. Cost: linear in contacts
-/// and bodies.
+/// Limits: a column has the height of its highest place, so that the surface lies somewhat outside; the heap ends where
+/// its last column does. Cost: linear in contacts and corners.
 #ifndef SCREE_MEASURE_PILE_H
 #define SCREE_MEASURE_PILE_H
 
@@ -34,6 +34,7 @@ typedef struct scree_pile_column {
 } scree_pile_column;
 
 typedef struct scree_pile {
+    bool of_circles; ///< lengths, angles and solid fraction are those of bounding circles, not of outlines
     uint8_t *member; ///< a row: 1: it is a grain of the pile that nothing prescribes
     size_t grains;
     size_t hanging;     ///< contacts of other grains with walls that are not the plate
@@ -54,6 +55,12 @@ typedef struct scree_pile {
 scree_status scree_pile_measure(const scree_model *model, const scree_state *state, const scree_work *work,
                                 const scree_contact_table *table, int plate, scree_pile *pile,
                                 scree_error *error) SCREE_MUST_USE;
+
+/// The same, of all that stands, with the bounding circles of polygons in place of their outlines: what decides births
+/// (source/pour.h), which are in free space of bounding circles; no measure of a pile.
+scree_status scree_pile_measure_circles(const scree_model *model, const scree_state *state, const scree_work *work,
+                                        const scree_contact_table *table, scree_pile *pile,
+                                        scree_error *error) SCREE_MUST_USE;
 void scree_pile_destroy(scree_pile *pile);
 
 /// Narrows `left` and `right`, the ends of its plateau [m], to the outermost columns between them that are not more

@@ -8,7 +8,9 @@
 #include "measure/measure.h"
 #include "measure/pile.h"
 #include "module/key_rows.h"
+#include "module/table.h"
 #include "run/conclusion.h"
+#include "source/lowest_wall.h"
 #include "state/births.h"
 
 #include <limits.h>
@@ -126,6 +128,8 @@ static const scree_result results[] = {
 };
 
 #define PLATE_MISSES 1e-3 /* of what holds the pile up: more is said */
+#define AT_REST      1e-5 /* unbalanced force ratio: ten times what the piles of the built-in cases settle to */
+#define WEIGHT_OFF   1e-3 /* share of the weight that what stands bears too much or too little */
 enum { DIP_GRAINS = 150, DIP_SHARE = 10, DIP_POINTS = 41 };
 
 /// Dip of the lowest cut (average/dip.h), in elements of DIP_GRAINS, in small piles of a tenth of the grains. NAN of
@@ -213,6 +217,63 @@ static void warn_of_hanging(const scree_conclusion *run, const scree_pile *pile)
                         name, 100 * pile->plate / pile->support);
 }
 
+/// Where no plate is named all that stands bears the pile: a clogged funnel, too, whose grains are no pile on the wall
+/// that the sources pour on to at last.
+static scree_status warn_of_funnel(const scree_conclusion *run, const scree_context *c, const scree_pile *pile,
+                                   scree_error *error)
+{
+    const numbers *n = scree_model_numbers(c->model, SCREE_SLOT_pile);
+    int lowest = -1;
+    scree_pile below;
+    if (n && n->plate >= 0) return SCREE_OK;
+    scree_status status = scree_source_lowest_wall(c->model, c->work->wall_set, &lowest, error);
+    if (status || lowest < 0) return status;
+    status = scree_pile_measure(c->model, c->state, c->work, c->table, lowest, &below, error);
+    if (status) return status;
+    if (below.grains < pile->grains)
+        scree_log_write(run->log, SCREE_LOG_WARNING,
+                        "%zu of the %zu grains of the pile do not rest on wall '%s', the lowest one below the sources, "
+                        "but on others alone: if these are a funnel, it has clogged, make its opening wider; give "
+                        "measure.plate the name of the wall on which the pile lies",
+                        pile->grains - below.grains, pile->grains, c->model->walls_of_case[lowest].name);
+    scree_pile_destroy(&below);
+    return SCREE_OK;
+}
+
+/// What a user may do about a pile that has not come to rest.
+static const char *remedy_of_motion(const scree_model *model)
+{
+    static _Thread_local char text[160];
+    const int64_t last = model->stage_count - 1;
+    if (scree_modules[model->stages[last].kind]->numbers->pours)
+        (void)snprintf(text, sizeof text, "give a smaller stages.%lld.unbalanced_limit, or a stage relax behind it",
+                       (long long)last);
+    else
+        (void)snprintf(text, sizeof text, "lengthen stage '%s'", model->stages[last].name);
+    return text;
+}
+
+/// What is told of a pile that is not at rest is told of an instant; of none nothing can be told.
+static void warn_of_motion(const scree_conclusion *run, const scree_pile *pile)
+{
+    const double unbalanced = scree_summary_number(run->summary, "unbalanced"),
+                 ratio = scree_summary_number(run->summary, "weight_ratio");
+    const char *remedy = remedy_of_motion(&run->s->model);
+    char text[120];
+    if (pile->grains == 0) {
+        (void)snprintf(text, sizeof text, "there is no pile: no particle rests on what it would lie on");
+        scree_log_write(run->log, SCREE_LOG_WARNING, "%s; if they still fall, %s", text, remedy);
+    } else if (unbalanced > AT_REST || fabs(ratio - 1) > WEIGHT_OFF) {
+        (void)snprintf(text, sizeof text, "the pile is not at rest: unbalanced %.3g, weight_ratio %.4g", unbalanced,
+                       ratio);
+        scree_log_write(run->log, SCREE_LOG_WARNING,
+                        "%s (at rest: below %g, and 1 to within %g): what is told of it is told of an instant; %s",
+                        text, AT_REST, WEIGHT_OFF, remedy);
+    } else
+        return;
+    scree_summary_add_text(run->summary, "warnings", text);
+}
+
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     char path[PATH_MAX];
@@ -224,9 +285,11 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     scree_status status = measure(&c, &pile, error);
     if (status) return status;
     warn_of_hanging(run, &pile);
+    status = warn_of_funnel(run, &c, &pile, error);
+    warn_of_motion(run, &pile);
     scree_conclude_few(run, "dip", scree_summary_number(run->summary, "dip_element"),
                        "take the mean over several piles with `scree measure`, or pour more particles");
-    status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_OUTLINE, error);
+    if (!status) status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_OUTLINE, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (!status) {
         write_outline(file, &pile);

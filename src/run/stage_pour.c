@@ -16,7 +16,10 @@
 #include "state/case_walls.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { CALM = 5 };
 
@@ -45,14 +48,16 @@ static const scree_key keys[] = {
     CHOICE(config, past, pasts, .standard = "stop",
            .meaning = "What happens when a particle has fallen past everything that stands."),
     NUMBER(config, sleep_window, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
-           .meaning = "Time for which a particle must be quiet before it is left out of the steps until it is pushed; "
-                      "auto: all are in all steps. When the sources have stopped all are awake."),
+           .meaning = "Time for which a particle must be quiet before it is left out of the steps until it is pushed, "
+                      "a step at least; auto: all are in all steps. When the sources have stopped all are awake."),
     NUMBER(config, sleep_force, "1", .standard = "0.01", ABOVE("0"), TO("1"),
-           .meaning = "Resultant force over weight below which it is quiet."),
+           .meaning = "Resultant force over weight below which it is quiet; only with `sleep_window`."),
     NUMBER(config, sleep_motion, "1", .standard = "1e-4", ABOVE("0"), TO("1"),
-           .meaning = "Way in that time, at the present speed, over its radius, below which it is quiet."),
+           .meaning = "Way in that time, at the present speed, over its radius, below which it is quiet; only with "
+                      "`sleep_window`."),
     NUMBER(config, wake_force, "1", .standard = "0.1", ABOVE("0"), TO("1e6"),
-           .meaning = "Mean resultant force of the last sleep_window, over weight, above which it wakes."),
+           .meaning =
+               "Mean resultant force of the last `sleep_window`, over weight, above which it wakes; only with that."),
 };
 
 static const config *own_config(const scree_simulation *s)
@@ -75,6 +80,51 @@ static const char *wrong(const scree_config *whole, int64_t index, const char **
                    "`walls` and boundary: walls",
                    scree_modules[slot]->name);
     return text;
+}
+
+/// Limits of sleep where nothing sleeps. A value that they have anyway is let pass: runs write all keys into their
+/// case.
+static void check_sleep_keys(scree_reader *reader, int64_t index, const config *own)
+{
+    char path[SCREE_PATH_BYTES], window[SCREE_PATH_BYTES];
+    scree_element_path(window, "stages", index, "sleep_window");
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
+        const size_t at = keys[k].offset;
+        if (at != offsetof(config, sleep_force) && at != offsetof(config, sleep_motion) &&
+            at != offsetof(config, wake_force))
+            continue;
+        double value;
+        memcpy(&value, (const char *)own + at, sizeof value);
+        scree_element_path(path, "stages", index, keys[k].name);
+        if (!(fabs(value - strtod(keys[k].standard, NULL)) > 0) || scree_rule_overrules(reader, window, path)) continue;
+        scree_rule_refuse(reader, path, NULL, "not used without `sleep_window`: give that, or leave this out");
+    }
+}
+
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    char path[SCREE_PATH_BYTES];
+    for (int64_t i = 0; i < whole->stage_count; i++)
+        if (whole->stages[i].kind == SCREE_SLOT_pour &&
+            !scree_rule_is_said(reader, scree_element_path(path, "stages", i, "sleep_window")))
+            check_sleep_keys(reader, i, whole->stages[i].own);
+}
+
+/// A body is quiet for a window when it has been for as many steps: for less than one that is nothing.
+static scree_status resolve(scree_model *model, scree_error *error)
+{
+    const double step = model->step * (double)model->largest_step;
+    for (int64_t i = 0; i < model->stage_count; i++) {
+        const config *own = model->stages[i].own;
+        char path[SCREE_PATH_BYTES];
+        if (model->stages[i].kind != SCREE_SLOT_pour || !(own->sleep_window < step)) continue;
+        return scree_error_refuse(
+            error, scree_element_path(path, "stages", i, "sleep_window"), NULL,
+            "%.3g s is less than a step of this case, %.3g s: a particle has to be quiet for many "
+            "(built-in cases: 5 ms)",
+            own->sleep_window, step);
+    }
+    return SCREE_OK;
 }
 
 // ---- while it runs -----------------------------------------------------------------------------------------------
@@ -205,6 +255,8 @@ const scree_module scree_module_pour = {
     .choice_of = CHOICE_OF(IS("stages", .meaning = "pours particles from the `sources`")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .rules = rules,
+    .resolve = resolve,
     .spreads = true,
     .begins_whole = scree_begins_in_parts,
     .numbers = &numbers,

@@ -173,7 +173,7 @@ static scree_status measure_pile(step *s, scree_error *error)
     if (s->measured) return SCREE_OK;
     scree_status status = scree_neighbours_refresh(c->model, c->state, c->work, error);
     if (!status) status = scree_contact_table_build(c->model, c->state, c->work, &table, error);
-    if (!status) status = scree_pile_measure(c->model, c->state, c->work, &table, -1, &s->pile, error);
+    if (!status) status = scree_pile_measure_circles(c->model, c->state, c->work, &table, &s->pile, error);
     s->measured = !status;
     s->saved = false;
     scree_contact_table_destroy(&table);

@@ -6,7 +6,7 @@
 
 small=(--set particles.count=60 --set sources.spout.interval="20 ms" --set output.paraview=no --set output.figures=no)
 for seed in 1 2; do
-    expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=$seed --threads 1 --quiet -o pile$seed
+    expect 0 '|not at rest' "$scree" run pour-discs "${small[@]}" --set seed=$seed --threads 1 --quiet -o pile$seed
 done
 
 # One pile: everything there is.
@@ -170,7 +170,7 @@ grep -qF '(page-figures/averaged-all-full.png)' page.md && [ -s page-figures/ave
 expect 2 "three piles or more.*give the folders of several piles" "$scree" measure pile1 --fit bcc --no-figures -o none
 expect 2 "three piles or more" "$scree" measure pile1 pile2 --fit bcc --no-figures -o none
 expect 2 "no theory 'bbc'" "$scree" measure pile1 pile2 --fit osl,bbc --no-figures -o none
-expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=3 --threads 1 --quiet -o pile3
+expect 0 '|not at rest' "$scree" run pour-discs "${small[@]}" --set seed=3 --threads 1 --quiet -o pile3
 expect 0 'fit_osl_eta' "$scree" measure pile1 pile2 pile3 --fit bcc,osl,wedge -o fit
 grep -q -- '-nan' <<<"$output" && complain "a number that is none has a sign"
 for file in fits.csv fit-points.csv fits-vertical.png mohr-coulomb.png; do

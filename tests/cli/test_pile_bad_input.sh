@@ -78,6 +78,20 @@ changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: s
 changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
 changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'
 
+# Limits of sleep without sleep are refused, but for the values that they have anyway, which a run writes into its case;
+# where --set drops the window they are dropped with it. Windows shorter than a step are none.
+for limit in 'sleep_force: 0.3' 'sleep_motion: 0.01' 'wake_force: 1'; do
+    changed "s/  - stage: pour/&\n    $limit/" "^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.${limit%%:*}: not used without .sleep_window.: give that, or leave this out"
+    same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
+    changed "s/  - stage: pour/&\n    sleep_window: soon\n    $limit/" "stages\.1\.sleep_window: 'soon'"
+    same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
+    changed "s/  - stage: pour/&\n    sleep_window: 5 ms\n    $limit/" 'pile-point' 0
+    expect 0 'pile-point' "$scree" check bad.yaml --set stages.pour.sleep_window=auto
+done
+changed 's/  - stage: pour/&\n    sleep_force: 0.01\n    sleep_motion: 1e-4\n    wake_force: 0.1/' 'pile-point' 0
+changed 's/  - stage: pour/&\n    sleep_window: 1e-6 s/' '^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.sleep_window: 1e-06 s is less than a step of this case, 2e-06 s: a particle has to be quiet for many'
+changed 's/  - stage: pour/&\n    sleep_window: 2e-6 s/' 'pile-point' 0
+
 # Without sources the keys of quick that set some of theirs are wrong, and nothing else is near to them.
 sed '/^sources:/,/^$/d' good.yaml >bad.yaml
 expect 2 'stages\.1\.stage: there is nothing that it could pour from: give .sources' "$scree" check bad.yaml
@@ -100,7 +114,7 @@ sed 's/    place: .*/    place: [0, 8 mm]/; s/  - stage: pour/&\n    patience: 5
 expect 3 "source 'spout' has been blocked .*raise the source, pour fewer particles, or let it stay .above. the pile" \
     "$scree" run bad.yaml "${small[@]}" -o blocked
 expect 0 'stopped' "$scree" get blocked status
-expect 0 '' "$scree" run bad.yaml "${small[@]}" --set sources.spout.place='[0, 10 cm]' --set particles.count=1 --quiet --set stages.settle.duration='1 ms' -o fine
+expect 0 '' "$scree" run bad.yaml "${small[@]}" --set sources.spout.place='[0, 10 cm]' --set particles.count=1 --quiet -o fine
 
 # Sources too small for what they pour, and too near to a wall for the largest of them.
 changed 's/source: point/source: line/; s/place: \[0, 50 cm\]/start: [0, 50 cm]\n    end: [1 mm, 50 cm]/' 'warning' 0
@@ -145,8 +159,33 @@ funnel=(--quick --no-figures --quiet --set output.paraview=no --set stages.pour.
 expect 0 "warning: grains that are no part of the pile on wall 'plate' touch other walls at [0-9]* points: .*funnel, it has clogged.*opening wider" \
     "$scree" run pile-hopper "${funnel[@]}" --set particles.count=4 -o clogged
 same "$("$scree" get clogged grains)" 0 "grains of a pile on the plate below a clogged funnel"
+"$scree" get clogged warnings | grep -q 'there is no pile' || complain "a pile without a grain is told of: $("$scree" get clogged warnings)"
+# Without a named plate they are told of as the pile; of a funnel that is open nothing is said.
+expect 0 "warning: 4 of the 4 grains of the pile do not rest on wall 'plate', the lowest one below the sources, but on others alone: .*funnel, it has clogged.*opening wider; give measure\.plate" \
+    "$scree" run pile-hopper "${funnel[@]}" --set particles.count=4 --set measure.plate=auto -o unnamed
+same "$("$scree" get unnamed grains)" 4 "grains in a clogged funnel, of all that stands"
 expect 3 "source 'belt' has been blocked .*the pile has reached the source, or a funnel has clogged" \
     "$scree" run pile-hopper "${funnel[@]}" --set particles.count=40 --set stages.pour.patience='0.1 s' -o choked
+
+# Through an open one all come to the plate, and lie between its sides as well.
+expect 0 'results in open' "$scree" run pile-hopper --quick --no-figures --set output.paraview=no --set particles.count=4 \
+    --set measure.plate=auto --set sources.belt.interval='20 ms' -o open
+grep -q 'funnel, it has clogged' <<<"$output" && complain "an open funnel is told of as clogged: $output"
+same "$("$scree" get open grains)" 4 "grains below an open funnel"
+
+# A pile that moves, and one that has not come to lie yet, are done, but not without a word; one at rest is.
+moving=("${small[@]}" --quiet --set particles.count=12 --set sources.spout.place='[0, 5 cm]' --set stages.pour.rest_time='1 ms')
+expect 0 "warning: the pile is not at rest: unbalanced 0\.[0-9]*, weight_ratio [0-9.]* .at rest: below 1e-05, and 1 to within 0\.001.: .*lengthen stage 'settle'" \
+    "$scree" run good.yaml "${moving[@]}" --set stages.settle.duration='1 ms' -o moving
+"$scree" get moving warnings | grep -q '^the pile is not at rest: unbalanced 0' || complain "warnings of a pile that moves: $("$scree" get moving warnings)"
+awk -v ratio="$("$scree" get moving weight_ratio)" -v unbalanced="$("$scree" get moving unbalanced)" 'BEGIN { exit !(unbalanced > 1e-5 || (ratio - 1) ^ 2 > 1e-6) }' ||
+    complain "the pile that moves is at rest"
+expect 0 "warning: there is no pile: .*if they still fall, lengthen stage 'settle'" \
+    "$scree" run good.yaml "${small[@]}" --quiet --set particles.count=1 --set stages.pour.rest_time='1 ms' --set stages.settle.duration='1 ms' -o falling
+expect 0 "not at rest: .*give a smaller stages\.1\.unbalanced_limit, or a stage relax behind it" \
+    "$scree" run pour-discs --quick --quiet --no-figures --set output.paraview=no --set particles.count=12 --set stages.pour.unbalanced_limit=0.5 -o restless
+expect 0 '' "$scree" run good.yaml "${moving[@]}" --set particles.count=4 -o settled
+same "$("$scree" get settled warnings | grep -c 'not at rest')" 0 "warnings of a pile at rest"
 
 # A polygon larger than its domain, and one that strikes too hard.
 cat >big.yaml <<'CASE'

@@ -30,7 +30,7 @@ same "$("$scree" get killed state_checksum)" "$wanted" "killed in mid-pour"
 
 # The same of polygons, whose outlines and contacts of areas come back.
 polygons=(pile-point --quick --set particles.count=12 --set sources.spout.interval="20 ms" --set output.paraview=no
-    --set output.figures=no --set output.checkpoint_steps=5000 --set stages.settle.duration="50 ms")
+    --set output.figures=no --set output.checkpoint_steps=5000)
 expect 0 '' "$scree" run "${polygons[@]}" --quiet -o angular
 kill_and_continue angular-killed "${polygons[@]}"
 same "$("$scree" get angular-killed state_checksum)" "$("$scree" get angular state_checksum)" "polygons killed in mid-pour"
