@@ -51,7 +51,8 @@ static const scree_key keys[] = {
            .meaning = "Time for which a particle must be quiet before it is left out of the steps until it is pushed, "
                       "a step at least; auto: all are in all steps. When the sources have stopped all are awake."),
     NUMBER(config, sleep_force, "1", .standard = "0.01", ABOVE("0"), TO("1"),
-           .meaning = "Resultant force over weight below which it is quiet; only with `sleep_window`."),
+           .meaning = "Resultant force over weight below which it is quiet; one that sleeps wakes when it has been "
+                      "above it for a window. Only with `sleep_window`."),
     NUMBER(config, sleep_motion, "1", .standard = "1e-4", ABOVE("0"), TO("1"),
            .meaning = "Way in that time, at the present speed, over its radius, below which it is quiet; only with "
                       "`sleep_window`."),

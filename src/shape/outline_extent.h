@@ -1,13 +1,10 @@
 /// How far the outline of a grain in the plane reaches, exactly: a convex polygon, one with rounded corners
 /// (shape/rounding.h), a disc. The surface of a sample is made of these.
 ///
-///     chord    the part of a vertical line at x that lies within the outline: of the edges that x lies in, moved
-///     outwards
-///              by the rounding r along their normals, and of the discs about the corners, y_k +- sqrt(r^2 - (x -
-///              x_k)^2)
-///     highest  of the outline above an interval of x: a convex outline falls from its top to both sides, so it is
-///     there
-///              where the interval is nearest to the top
+/// Chord: the part of a vertical line at x within the outline, of the edges that x lies in, moved outwards by the
+/// rounding r along their normals, and of the discs about the corners, y_k +- sqrt(r^2 - (x - x_k)^2). Highest point
+/// above an interval: a convex outline falls from its top to both sides, so it lies where the interval is nearest to
+/// the top.
 ///
 /// Places are relative to the centre of the body. Limits: at the very ends of a rounded outline round-off may miss it.
 /// Cost: linear in the corners, with a root and a distance a corner where it is rounded.
