@@ -219,7 +219,8 @@ wrong 's/case: mine/case: mien/' "4:11: case: there is no sweep or case 'mien'; 
 wrong 's/value: mine.r, criterion: within/value: mine\/III.r, criterion: within/' "10:[0-9]+: ours: there is no point 'III'"
 wrong 's/reason: because/unit: m/' "11:[0-9]+: more: 'form' needs a 'reason'"
 cmp -s page.md before.md || complain "a wrong table changed the page"
-expect 2 'nothing.yaml' "$scree" report runs -s nothing.yaml
+expect 2 '^nothing.yaml: there is no file and no built-in table of statements of this name .accepted: .*padbidri2010' "$scree" report runs -s nothing.yaml
+expect 2 '^padbidri201: there is no file and no built-in table of statements of this name .accepted: padbidri2010.$' "$scree" report runs -s padbidri201
 
 # Averages over members: intervals of files, of differences and quotients of different ensembles, of one and the same.
 average() { # FOLDER POINT RUNS RESULT VALUE LOW HIGH
