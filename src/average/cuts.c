@@ -79,7 +79,7 @@ static scree_status check_side(const scree_average_view *view, scree_error *erro
     return scree_error_refuse(
         error, "--element", NULL,
         "an element of %.3g m (%.0f grains) is larger than the sample, which is %.3g m wide and %.3g m high with %zu "
-        "grains: take fewer grains",
+        "grains: take a smaller one",
         view->frame.side, view->grains, width, view->frame.height, view->sample->counted);
 }
 

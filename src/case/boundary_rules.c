@@ -129,6 +129,71 @@ static const char *wrong_boundary(scree_reader *reader, const scree_config *conf
     return stage->needs_free ? NULL : boundary->needs_gradient;
 }
 
+/// What is wrong with stage `index`, which moves, and under which key; NULL: nothing.
+static const char *wrong_stage(scree_reader *reader, const scree_config *config, int64_t index,
+                               const scree_boundary *boundary, const char **key)
+{
+    const scree_config_stage *stage = &config->stages[index];
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    const char *wrong = NULL;
+    if (config->boundary.periodic > 0) wrong = wrong_in_cell(config, stage, numbers, boundary, key);
+    // Of what sources do not go with their stage says more.
+    if (!wrong && numbers->pours && numbers->wrong) wrong = numbers->wrong(config, index, key);
+    if (!wrong && !boundary->periodic) wrong = wrong_boundary(reader, config, stage, boundary);
+    return wrong;
+}
+
+/// The first stage that moves, where all of them stand among the walls of the case; -1: not all do.
+static int64_t first_among_walls(const scree_config *config)
+{
+    int64_t first = -1;
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        const scree_stage_numbers *numbers = scree_modules[config->stages[i].kind]->numbers;
+        const scree_boundary *boundary = scree_config_held_by(config, i);
+        if (numbers->places || numbers->instant) continue;
+        if (!boundary || !boundary->needs_walls) return -1;
+        if (first < 0) first = i;
+    }
+    return config->wall_count > 0 ? first : -1;
+}
+
+/// Whether something looks at the gaps between outlines where no outer boundary of the sample is kept.
+static bool asks_for_gaps(const scree_reader *reader, const scree_config *config)
+{
+    const scree_node *strain = scree_node_find(scree_node_find(reader->root, "measure"), "mean_strain");
+    return config->measure.cells || config->selection_count > 0 ||
+           (strain && strain->text && strcmp(strain->text, "no") != 0);
+}
+
+/// Notes keys of `boundary` with another value than that which they have by themselves, where nothing stands but the
+/// walls of the case: they are about plates, membranes and the outer boundary of a sample. What a written case says of
+/// them are the values of before.
+static void check_among_walls(scree_reader *reader, scree_config *config)
+{
+    const int64_t first = first_among_walls(config);
+    const scree_node *section = scree_node_find(reader->root, "boundary");
+    const scree_section *keys = scree_section_find(scree_schema(), "boundary", strlen("boundary"))->sections;
+    if (first < 0 || !section) return;
+    for (const scree_node *node = section->first; node; node = node->next) {
+        const scree_key *key = scree_section_find(keys, node->key, strlen(node->key));
+        const bool gap = strncmp(node->key, "gap_", 4) == 0, lateral = strcmp(node->key, "lateral") == 0;
+        if (!key || !node->text || strcmp(node->key, "periodic") == 0 || (gap && asks_for_gaps(reader, config)) ||
+            (key->standard && strcmp(node->text, key->standard) == 0))
+            continue;
+        char path[SCREE_PATH_BYTES];
+        const char *stage_key = "boundary", *wrong = NULL;
+        scree_config_stage *stage = &config->stages[first];
+        const int said = stage->boundary;
+        scree_key_join(path, "boundary", node->key);
+        // What the stage would be told, if it had this boundary.
+        stage->boundary = config->boundary.lateral;
+        if (lateral) wrong = wrong_stage(reader, config, first, scree_modules[stage->boundary]->boundary, &stage_key);
+        stage->boundary = said;
+        scree_problem_add(reader, node->key_place, path, node->text, NULL, "%s",
+                          wrong ? wrong : "not used: all stages stand beside the `walls` of the case");
+    }
+}
+
 void scree_rules_check_boundaries(scree_reader *reader, scree_config *config)
 {
     const scree_boundary *before = NULL;
@@ -136,6 +201,7 @@ void scree_rules_check_boundaries(scree_reader *reader, scree_config *config)
         if (config->stages[i].kind < 0 || config->stages[i].boundary == SCREE_CHOICE_WRONG) return; // noted
     if (config->boundary.lateral < 0 || config->boundary.periodic < 0) return;
     check_periodic(reader, config);
+    if (config->dimension > 0) check_among_walls(reader, config);
     bool round = false;
     for (int64_t i = 0; i < config->stage_count; i++) {
         scree_config_stage *stage = &config->stages[i];
@@ -155,10 +221,7 @@ void scree_rules_check_boundaries(scree_reader *reader, scree_config *config)
             if (wrong) refuse(reader, i, key, wrong);
             continue;
         }
-        if (config->boundary.periodic > 0) wrong = wrong_in_cell(config, stage, numbers, boundary, &key);
-        // Of what sources do not go with their stage says more.
-        if (!wrong && numbers->pours && numbers->wrong) wrong = numbers->wrong(config, i, &key);
-        if (!wrong && !boundary->periodic) wrong = wrong_boundary(reader, config, stage, boundary);
+        wrong = wrong_stage(reader, config, i, boundary, &key);
         if (round && !boundary->periodic && !boundary->round)
             wrong = with_choices(reader, "a round sample has no plates: give boundary: ", "stages.boundary",
                                  imposes_gradients_on_round, "");

@@ -26,6 +26,10 @@ const scree_choice *scree_choice_find(const scree_choice *choices, const char *t
 /// "a length", "a whole number", "yes or no": what a key takes, with its article.
 const char *scree_key_noun(const scree_key *key);
 
+/// Two values as a key of vectors or of pairs takes them, "[0, 0.5 mm]". Both texts live until the next call of a
+/// thread.
+const char *scree_key_pair_example(const scree_key *key);
+
 /// What a key accepts, for messages and the manual: "more than 0 m, at most 1 m", "yes, no", names of choices. Empty
 /// when there is no limit.
 void scree_key_accepts(const scree_key *key, char *text, size_t size);

@@ -20,6 +20,33 @@ const scree_choice *scree_choice_find(const scree_choice *choices, const char *t
     return NULL;
 }
 
+/// In the unit of the key; shares are told in %, if its limits are.
+const char *scree_key_pair_example(const scree_key *key)
+{
+    static _Thread_local char text[64];
+    const bool shares = key->least.text && strchr(key->least.text, '%'), plain = strcmp(key->unit, "1") == 0;
+    if (shares) return "[1 %, 3 %]";
+    if (plain) return "[0, 1]";
+    (void)snprintf(text, sizeof text, "[0, %s]", scree_units_example(key->unit));
+    return text;
+}
+
+static const char *pairs_noun(const scree_key *key)
+{
+    static _Thread_local char text[160];
+    const bool shares = key->least.text && strchr(key->least.text, '%');
+    (void)snprintf(text, sizeof text, "a list of pairs, e.g. [%s, %s], or the name of a .csv file of them",
+                   scree_key_pair_example(key), shares ? "[10 %, 15 %]" : "...");
+    return text;
+}
+
+static const char *vector_noun(const scree_key *key)
+{
+    static _Thread_local char text[100];
+    (void)snprintf(text, sizeof text, "a list of two values, e.g. %s", scree_key_pair_example(key));
+    return text;
+}
+
 const char *scree_key_noun(const scree_key *key)
 {
     switch (key->type) {
@@ -36,9 +63,9 @@ const char *scree_key_noun(const scree_key *key)
     case SCREE_KEY_CHOICE:
         return "one of the choices";
     case SCREE_KEY_VECTOR:
-        return "a list of two values, e.g. [0, -9.81 m/s2]";
+        return vector_noun(key);
     case SCREE_KEY_PAIRS:
-        return "a list of pairs, e.g. [[1 %, 3 %], [10 %, 15 %]]";
+        return pairs_noun(key);
     case SCREE_KEY_SCHEDULE:
         return key->components > 1 ? "a list of two values, or a table of times and values, [[0 s, 0, 0], ...]"
                                    : "a value, or a table of times and values, e.g. [[0 s, 0], [1 s, 5]]";

@@ -162,10 +162,12 @@ static void store_numbers(const value *v, const scree_node *node, size_t most, d
     out[0] = out[1] = NAN;
     if (node->kind != SCREE_NODE_LIST || node->count < 2 || node->count > most) {
         value whole = *v;
+        char message[120];
         whole.place = node->place;
-        reject(&whole, NULL,
-               v->key->type == SCREE_KEY_PAIRS ? "expected a pair of values, e.g. [1 %, 3 %]"
-                                               : "expected two or three values, e.g. [0, -9.81 m/s2]");
+        (void)snprintf(message, sizeof message, "expected %s, e.g. %s",
+                       v->key->type == SCREE_KEY_PAIRS ? "a pair of values" : "two or three values",
+                       scree_key_pair_example(v->key));
+        reject(&whole, NULL, message);
         return;
     }
     for (size_t i = 0; i < node->count; i++) {

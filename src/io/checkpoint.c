@@ -9,6 +9,8 @@
 #include "io/snapshot.h"
 #include "io/state_file.h"
 
+#include <scree/scree.h>
+
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -157,8 +159,18 @@ scree_status scree_checkpoint_write(const char *directory, const scree_state *st
 
 // ---- reading -----------------------------------------------------------------------------------------------------
 
-static void read_state(scree_hdf5 *file, const scree_restart_point *point, const scree_restart_wanted *wanted,
-                       scree_state *state)
+/// Why a snapshot has no state. A guard keeps one of what it stopped, and then the results say so, if they were
+/// written; an archive of such a run says the same of itself.
+static const char *why_without_state(const char *directory)
+{
+    char status[32];
+    const bool known = scree_result_get(directory, "status", status, sizeof status, NULL) == SCREE_OK;
+    if (known && strcmp(status, "stopped") != 0) return "was kept without its state (scree export --archive)";
+    return "has no state to go on from: it shows what a guard stopped, or was kept so (scree export --archive)";
+}
+
+static void read_state(scree_hdf5 *file, const char *directory, const scree_restart_point *point,
+                       const scree_restart_wanted *wanted, scree_state *state)
 {
     char group[64], inner[80];
     void (*const read)(scree_hdf5 *, const char *, const char *, int, uint64_t, scree_state *) =
@@ -173,9 +185,8 @@ static void read_state(scree_hdf5 *file, const scree_restart_point *point, const
         (H5Lexists(file->file, group, H5P_DEFAULT) <= 0 || H5Lexists(file->file, inner, H5P_DEFAULT) <= 0)) {
         // Not damaged, but as good as that: another may serve.
         file->damaged = true;
-        file->status = scree_error_set(file->error, SCREE_ERROR_IO,
-                                       "snapshot %" PRId64 " was kept without its state (scree export --archive)",
-                                       point->index);
+        file->status = scree_error_set(file->error, SCREE_ERROR_IO, "snapshot %" PRId64 " %s", point->index,
+                                       why_without_state(directory));
     }
     read(file, inner, group, wanted->dimension, wanted->case_checksum, state);
 }
@@ -212,7 +223,7 @@ scree_status scree_restart_point_read(const char *directory, const scree_restart
     else
         scree_run_file_open(&file, path, &sound, error);
     agree(&file, wanted);
-    read_state(&file, point, wanted, state);
+    read_state(&file, directory, point, wanted, state);
     agree(&file, wanted);
     if (!file.status && wanted->usable && wanted->usable(wanted->context, state, &reason))
         scree_hdf5_refuse(&file, "%s", reason.message);

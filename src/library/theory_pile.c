@@ -224,6 +224,15 @@ static void keep(solutions *all, const char *column, const char *label, const sc
     all->of[all->count++] = (solution){column, label, *pile};
 }
 
+/// No kind of core balances.
+static scree_status refuse_axis(const scree_theory_pile_of *of, scree_error *error)
+{
+    if (isnan(of->axis))
+        return scree_error_refuse(error, "phi", NULL, "no wedge of these slopes balances, whatever its ray");
+    return scree_error_refuse(error, "axis", "a ray nearer to the vertical, or free: one without shear",
+                              "no wedge balances about a ray %.4g degrees from the vertical", of->axis);
+}
+
 static scree_status solve_wedge(scree_theory *t, const scree_theory_pile_of *of, solutions *all, scree_error *error)
 {
     const scree_wedge_of wanted = {.slope = {of->slope[0] * DEGREE, of->slope[1] * DEGREE},
@@ -242,7 +251,7 @@ static scree_status solve_wedge(scree_theory *t, const scree_theory_pile_of *of,
         add_wedge(t, &wedge_rows[k], of, &wedge);
         keep(all, wedge_rows[k].column, wedge_rows[k].label, &wedge.pile);
     }
-    if (isnan(of->core)) return SCREE_OK;
+    if (isnan(of->core)) return all->count > 0 ? SCREE_OK : refuse_axis(of, error);
     scree_status status =
         scree_wedge_of_core(&wanted, of->core * DEGREE, isnan(axis) ? 0 : axis, &found, &wedge, error);
     if (!status && !found)

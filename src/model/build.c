@@ -341,33 +341,6 @@ static void list_laws(bool areas, char list[256])
                 snprintf(list + length, 256 - (size_t)length, "%s%s", length > 0 ? ", " : "", scree_modules[m]->name);
 }
 
-/// Rounded corners go with laws of springs, sharp ones with laws of areas.
-static scree_status check_rounding(const scree_model *model, bool areas, scree_error *error)
-{
-    const scree_config_particles *particles = &model->config->particles;
-    const char *law = scree_modules[model->laws[0].law]->name;
-    char others[256];
-    list_laws(!areas, others);
-    for (int64_t s = 0; s < scree_config_species_count(particles); s++) {
-        const scree_shape *shape = scree_modules[scree_config_shape(particles, s)]->shape;
-        if (!shape->rounding) continue;
-        const double rounding = shape->rounding(scree_config_shape_keys(particles, s));
-        if (areas && rounding > 0)
-            return scree_error_refuse(
-                error, "particles.rounding", NULL,
-                "law %s takes the area that two outlines share, and knows sharp corners alone: leave "
-                "rounding out, or take contact.law %s",
-                law, others);
-        if (!areas && !(rounding > 0))
-            return scree_error_refuse(
-                error, "contact.law", NULL,
-                "law %s has no meaning for polygons with sharp corners: give particles.rounding (0.1, "
-                "say), or take one of the laws of areas: %s",
-                law, others);
-    }
-    return SCREE_OK;
-}
-
 static scree_status resolve_geometry(scree_model *model, scree_error *error)
 {
     const bool areas = scree_model_traits(model)->areas;
@@ -378,7 +351,7 @@ static scree_status resolve_geometry(scree_model *model, scree_error *error)
                                       "laws of areas and others do not go together in one case");
     model->geometry = geometry_of(&model->config->particles, areas, &chosen);
     model->largest_gain = model->geometry >= 0 && chosen->traits->gains ? SCREE_LARGEST_GAIN : 1;
-    if (model->geometry >= 0) return check_rounding(model, areas, error);
+    if (model->geometry >= 0) return SCREE_OK;
     char others[256];
     list_laws(!areas, others);
     return scree_error_refuse(error, "contact.law", NULL,
@@ -386,8 +359,8 @@ static scree_status resolve_geometry(scree_model *model, scree_error *error)
                               scree_modules[model->laws[0].law]->name, others);
 }
 
-/// What geometries with gains do not know: laws that stick, bonds, bodies whose surfaces move, friction that asks for
-/// the coming step.
+/// What geometries with gains do not know beside laws that stick, which the rules of their shapes refuse: bonds, bodies
+/// whose surfaces move, friction that asks for the coming step.
 static scree_status check_gains(const scree_model *model, scree_error *error)
 {
     if (!(model->largest_gain > 1)) return SCREE_OK;
@@ -405,10 +378,6 @@ static scree_status check_gains(const scree_model *model, scree_error *error)
         if (traits->deforms)
             return scree_error_refuse(error, "particles.rounding", NULL,
                                       "polygons are rigid: particles that deform are discs");
-        const char *name = scree_modules[model->laws[k].law]->name;
-        if (traits->pulls || traits->necks)
-            return scree_error_refuse(error, "contact.law", NULL,
-                                      "law %s sticks: rounded polygons need one that only pushes", name);
     }
     return SCREE_OK;
 }

@@ -25,6 +25,10 @@ typedef struct scree_shape {
     double (*narrowest)(const void *keys, uint64_t seed, uint64_t number);
     /// Radius of the corners over the equivalent radius; 0: they are sharp.
     double (*rounding)(const void *keys);
+    /// Corners of body `number` as drawn, relative to the centre of the body, for an equivalent radius of 1; of its
+    /// core where they are rounded. corner: room for SCREE_POLYGON_CORNERS (shape/polygon.h). Returns their number; 0:
+    /// the keys are wrong, and noted.
+    int (*corners)(const void *keys, uint64_t seed, uint64_t number, double (*corner)[2]);
     /// Gives the body in `row` the outline of body `number` as drawn, within the radius that its row has, with mass,
     /// inertia and sizes that follow. Errors: memory.
     scree_status (*dress)(const scree_model *model, const void *keys, uint64_t number, scree_state *state, size_t row,

@@ -2,6 +2,7 @@
 /// inside of their box, and not deeper in each other than the guard allows.
 #include "prepare/bodies.h"
 #include "prepare/given.h"
+#include "prepare/given_outline.h"
 
 #include "base/vectors.h"
 #include "case/case.h"
@@ -17,13 +18,15 @@ typedef struct listed {
     const scree_prepare_config *stage;
     const scree_bodies_config *own;
     const scree_node *nodes; ///< the list in the tree
+    bool outlines;           ///< bodies are polygons, and can be drawn
 } listed;
 
 /// What is said of a body, and how far it reaches.
 typedef struct shown {
     const scree_listed_body *body;
     const scree_node *node;
-    double radius; ///< m; NAN: missing or wrong, and noted
+    int64_t index;
+    double radius; ///< m, of equal area; NAN: missing or wrong, and noted
     bool placed;   ///< its position is known
 } shown;
 
@@ -40,7 +43,7 @@ static shown show(const listed *l, int64_t index)
     const scree_node *node = scree_node_at(l->nodes, (size_t)index);
     bool common = has_common_radius(node) && scree_listed_equal(l->config);
     double radius = common ? scree_listed_radius(l->config, body) : body->radius;
-    return (shown){body, node, radius, scree_node_find(node, "position") != NULL};
+    return (shown){body, node, index, radius, scree_node_find(node, "position") != NULL};
 }
 
 /// Notes a problem at a key of body `index`, or at the body when it does not give that key.
@@ -112,6 +115,19 @@ static void check_radius(const listed *l, int64_t index, const shown *s)
     refuse(l, index, "radius", NULL, message);
 }
 
+/// What a body reaches from its centre towards both walls across direction c [m].
+static void find_reach(const listed *l, const shown *s, int c, double reach[2])
+{
+    reach[0] = reach[1] = s->radius;
+    if (!l->outlines || !isfinite(s->radius) || !isfinite(s->body->angle)) return;
+    const scree_given_outline outline =
+        scree_given_outline_of(l->config, (uint64_t)s->index, s->radius, s->body->angle);
+    for (int k = 0; k < 2; k++) {
+        const double side = k ? 1 : -1, direction[2] = {c == 0 ? side : 0, c == 1 ? side : 0};
+        reach[k] = scree_given_outline_support(&outline, direction);
+    }
+}
+
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.
 static void check_inside(const listed *l, int64_t index, const shown *s)
 {
@@ -119,17 +135,21 @@ static void check_inside(const listed *l, int64_t index, const shown *s)
     const double side[3] = {l->stage->width, in_3d ? l->stage->depth : l->own->height, l->own->height};
     static const char *const names[2][3] = {{"width", "height", ""}, {"width", "depth", "height"}};
     for (int c = 0; c < l->config->dimension && s->placed && scree_given_has_box(l->config); c++) {
-        bool periodic = l->config->boundary.periodic >> c & 1;
-        double reach = periodic ? 0 : s->radius * (1 - l->config->guard.overlap), at = s->body->position[c];
+        const bool periodic = l->config->boundary.periodic >> c & 1;
+        const double at = s->body->position[c], allowed = s->radius * l->config->guard.overlap;
+        const char *what = l->outlines ? "its outline reaches" : "the radius";
+        double reach[2];
         char message[200];
-        if (at < reach)
+        find_reach(l, s, c, reach);
+        if (at < (periodic ? 0 : reach[0] - allowed))
             (void)snprintf(message, sizeof message,
-                           "outside of the box: %c is %.6g m, the radius %.6g m, and the box begins at 0", "xyz"[c], at,
-                           s -> radius);
-        else if (at > side[c] - reach)
+                           "outside of the box: %c is %.6g m, %s %.6g m, and the box begins at 0", "xyz"[c], at, what,
+                           reach[0]);
+        else if (at > side[c] - (periodic ? 0 : reach[1] - allowed))
             (void)snprintf(message, sizeof message,
-                           "outside of the box: %c is %.6g m, the radius %.6g m, and the %s of the box %.6g m",
-                           "xyz"[c], at, s -> radius, names[in_3d][c], side[c]);
+                           "outside of the box: %c is %.6g m, %s %.6g m, and the %s of the "
+                           "box %.6g m",
+                           "xyz"[c], at, what, reach[1], names[in_3d][c], side[c]);
         else
             continue;
         refuse(l, index, "position", NULL, message);
@@ -137,32 +157,64 @@ static void check_inside(const listed *l, int64_t index, const shown *s)
     }
 }
 
-/// Distance of two centres; along periodic directions of known sides that of the nearest ghosts.
-static double distance_of(const listed *l, const shown *one, const shown *other)
+/// Way from one centre to the other; along periodic directions of known sides to the nearest ghost.
+static void find_way(const listed *l, const shown *one, const shown *other, double way[3])
 {
     const double side[3] = {l->stage->width, l->config->dimension == 3 ? l->stage->depth : l->own->height,
                             l->own->height};
-    double way[3] = {0};
-    for (int c = 0; c < l->config->dimension; c++) {
-        way[c] = one->body->position[c] - other->body->position[c];
+    for (int c = 0; c < 3; c++) {
+        way[c] = c < l->config->dimension ? other->body->position[c] - one->body->position[c] : 0;
         bool folds = l->config->boundary.periodic >> c & 1 && side[c] > 0;
         if (folds) way[c] -= side[c] * rint(way[c] / side[c]);
     }
-    return scree_length(way);
+}
+
+/// Whether two polygons overlap by more than the guard allows, and what is said of it.
+static bool outlines_overlap(const listed *l, const shown *one, const shown *other, const double way[3], char *message,
+                             size_t size)
+{
+    const double far = scree_given_reach(l->config, one->radius) + scree_given_reach(l->config, other->radius);
+    if (!(scree_length(way) < far) || !isfinite(one->body->angle + other->body->angle)) return false;
+    const scree_given_outline first =
+        scree_given_outline_of(l->config, (uint64_t)one->index, one->radius, one->body->angle);
+    const scree_given_outline second =
+        scree_given_outline_of(l->config, (uint64_t)other->index, other->radius, other->body->angle);
+    const scree_given_depth found = scree_given_outline_depth(&first, &second, way);
+    const double most = l->config->guard.overlap * fmin(first.bound, second.bound);
+    if (!(found.overlap > most)) return false;
+    const int length = snprintf(message, size, "bodies %lld and %lld lie %.6g m deep in each other",
+                                (long long)one->index, (long long)other->index, found.depth);
+    if (isinf(found.overlap))
+        (void)snprintf(message + length, size - (size_t)length, ", where no law has a force: move them apart");
+    else
+        (void)snprintf(message + length, size - (size_t)length,
+                       ", which is an overlap of %.6g m to their law; guard.overlap allows %.6g m: move them apart",
+                       found.overlap, most);
+    return true;
+}
+
+static bool round_bodies_overlap(const listed *l, const shown *one, const shown *other, const double way[3],
+                                 char *message, size_t size)
+{
+    const double overlap = one->radius + other->radius - scree_length(way);
+    const double most = l->config->guard.overlap * fmin(one->radius, other->radius);
+    (void)snprintf(message, size,
+                   "bodies %lld and %lld overlap by %.6g m; guard.overlap allows %.6g m: move them apart",
+                   (long long)one->index, (long long)other->index, overlap, most);
+    return overlap > most;
 }
 
 /// Notes the first body before this one that it overlaps by more than the guard allows.
 static void check_overlap(const listed *l, int64_t index, const shown *s)
 {
     for (int64_t k = 0; k < index && s->placed; k++) {
-        shown other = show(l, k);
-        double overlap = s->radius + other.radius - distance_of(l, s, &other);
-        double most = l->config->guard.overlap * fmin(s->radius, other.radius);
-        if (!other.placed || !(overlap > most)) continue;
-        char message[200];
-        (void)snprintf(message, sizeof message,
-                       "bodies %lld and %lld overlap by %.6g m; guard.overlap allows %.6g m: move them apart",
-                       (long long)k, (long long)index, overlap, most);
+        const shown other = show(l, k);
+        double way[3];
+        char message[240];
+        find_way(l, &other, s, way);
+        if (!other.placed ||
+            !(l->outlines ? outlines_overlap : round_bodies_overlap)(l, &other, s, way, message, sizeof message))
+            continue;
         refuse(l, index, "position", NULL, message);
         return;
     }
@@ -174,8 +226,10 @@ void scree_bodies_rules(scree_reader *reader, const scree_config *config)
     if (!stage || scree_config_prepared(stage)->method != SCREE_SLOT_bodies || scree_bodies_of(stage)->body_count == 0)
         return;
     const scree_node *node = scree_node_at(scree_node_find(reader->root, "stages"), 0);
-    listed l = {reader, config, scree_config_prepared(stage), scree_bodies_of(stage), scree_node_find(node, "bodies")};
+    listed l = {reader, config, scree_config_prepared(stage), scree_bodies_of(stage), scree_node_find(node, "bodies"),
+                false};
     if (!scree_given_rules(reader, config, (size_t)l.own->body_count)) return;
+    l.outlines = scree_given_has_outlines(config);
     for (int64_t i = 0; i < l.own->body_count; i++) {
         shown s = show(&l, i);
         if (s.node->kind != SCREE_NODE_MAPPING) continue; // noted

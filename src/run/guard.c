@@ -2,6 +2,10 @@
 #include "run/guard.h"
 #include "comm/comm.h"
 #include "comm/parts.h"
+#include "search/ghosts.h"
+#include "shape/core_gap.h"
+#include "shape/polygons.h"
+#include "state/periodic.h"
 #include "state/plates.h"
 
 #include <math.h>
@@ -40,17 +44,70 @@ static bool sticks(const scree_model *model)
     return false;
 }
 
+/// Another body in the one that is indented, and what the geometry says of the two.
+typedef struct indenter {
+    uint32_t row;    ///< SCREE_NO_ROW: there is none, it is a wall
+    double depth;    ///< m
+    bool one_inside; ///< one of the two lies wholly inside the other
+} indenter;
+
+/// How deep two bodies lie in each other; *inside: one of them wholly in the other.
+static double depth_of(const scree_simulation *s, uint32_t one, uint32_t other, bool *inside)
+{
+    const scree_state *state = &s->state;
+    const scree_polygons *polygons = scree_polygons_of(state);
+    const double *lattice = scree_cell(state)->lattice;
+    const double radius[2] = {state->row[one].radius, state->row[other].radius};
+    scree_vector from, to;
+    int shift[3];
+    bool of_second;
+    scree_body_position(state, one, from);
+    scree_body_position(state, other, to);
+    const bool across = scree_ghosts_nearest(state, &s->work, one, other, shift, &of_second);
+    for (int k = 0; k < 3; k++) {
+        double image = 0;
+        for (int i = 0; i < 3 && across; i++) image += lattice[3 * k + i] * shift[i];
+        to[k] += (of_second ? image : -image) - from[k];
+    }
+    const double distance = scree_length(to);
+    *inside = distance + fmin(radius[0], radius[1]) <= fmax(radius[0], radius[1]);
+    if (distance >= radius[0] + radius[1] || !polygons || !polygons->of) return radius[0] + radius[1] - distance;
+    const scree_core core = scree_core_of_row(state, polygons, one), in = scree_core_of_row(state, polygons, other);
+    const double back[2] = {-to[0], -to[1]};
+    *inside = scree_core_lies_within(&core, &in, to) || scree_core_lies_within(&in, &core, back);
+    return scree_core_depth(&core, &in, to);
+}
+
+/// The body that lies deepest in that of a row. All are looked at: the list of pairs may be that of a part.
+static indenter find_indenter(const scree_simulation *s, uint32_t row)
+{
+    indenter found = {.row = SCREE_NO_ROW};
+    for (uint32_t k = 0; k < s->state.count; k++) {
+        bool inside = false;
+        const double depth = k == row ? 0 : depth_of(s, row, k, &inside);
+        if (depth > found.depth) found = (indenter){k, depth, inside};
+    }
+    return found;
+}
+
 static scree_status stop_overlap(const scree_simulation *s, scree_error *error)
 {
-    const scree_row *row = &s->state.row[s->state.row_of_id[s->work.flagged_id]];
+    const uint32_t flagged = s->state.row_of_id[s->work.flagged_id];
+    const scree_row *row = &s->state.row[flagged];
+    const indenter other = find_indenter(s, flagged);
     const bool cohesive = sticks(&s->model);
+    char by[100] = "";
+    if (other.row != SCREE_NO_ROW)
+        (void)snprintf(by, sizeof by, " by particle %u%s", s->state.id[other.row],
+                       other.one_inside ? ": one of them lies inside the other" : "");
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: particle %llu at (%.4g, %.4g) m is indented by more than %.3g of its radius "
-                           "(guard.overlap); the load is too high for the stiffness%s or the motion too fast: "
-                           "try a stiffer material, a lower pressure%s or a slower rate",
+                           "(guard.overlap)%s; the load is too high for the stiffness%s, the motion too fast or the "
+                           "step too large: try a stiffer material, a lower pressure%s, a slower rate or a smaller "
+                           "step",
                            (unsigned long long)s->state.step, (unsigned long long)s->work.flagged_id, row->x, row->y,
-                           s->model.overlap_limit, cohesive ? ", the cohesion too strong for it or the step" : "",
-                           cohesive ? ", less surface energy, a smaller step" : "");
+                           s->model.overlap_limit, by, cohesive ? ", the cohesion too strong for it" : "",
+                           cohesive ? ", less surface energy" : "");
 }
 
 void scree_guard_join(const scree_state *state, scree_work *work, bool late)

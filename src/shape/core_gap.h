@@ -13,4 +13,12 @@
 /// polygons the product of their corners, some 0.3 microseconds of 7 each.
 double scree_core_gap(const scree_core *first, const scree_core *second, const double apart[2]);
 
+/// How deep they lie in each other [m]: the shortest way that parts them, negative where they are apart. Where cores
+/// meet it is that of the cores, along the outward normal of one of their edges (of two convex polygons the shortest
+/// way out is across an edge of one of them, since their Minkowski difference has no others), and both roundings.
+double scree_core_depth(const scree_core *first, const scree_core *second, const double apart[2]);
+
+/// Whether no point of the first body is outside of the second, `apart` from it. Cost: the product of their corners.
+bool scree_core_lies_within(const scree_core *first, const scree_core *second, const double apart[2]);
+
 #endif

@@ -7,6 +7,7 @@
 #include "module/key_rows.h"
 #include "module/shape.h"
 #include "shape/polygon_make.h"
+#include "shape/polygon_rules.h"
 #include "shape/rounding.h"
 #include "state/fields.h"
 #include "state/sleep.h"
@@ -181,6 +182,20 @@ static double narrowest(const void *said, uint64_t seed, uint64_t number)
 static double rounding(const void *said)
 {
     return ((const config *)said)->rounding;
+}
+
+static int corners_of(const void *said, uint64_t seed, uint64_t number, double (*corner)[2])
+{
+    const config *c = said;
+    const char *key;
+    const bool given = c->outline == GIVEN, ranged = c->corners_min > 0 && c->corners_max > 0;
+    if (wrong(said, &key) || (given ? !c->corners || is_unreadable(c) : !ranged)) return 0;
+    if (c->outline == ON_ELLIPSE && !(c->axis_ratio >= 1 && c->corner_angles >= 0)) return 0;
+    const int count = draw(c, seed, number, corner);
+    const scree_polygon_measures m = measure(c, count, corner);
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 2; i++) corner[k][i] -= m.centroid[i];
+    return count;
 }
 
 static scree_status dress(const scree_model *model, const void *said, uint64_t number, scree_state *state, size_t row,
@@ -456,6 +471,7 @@ const scree_module scree_module_polygon = {
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
+    .rules = scree_polygon_rules,
     .spreads = true,
     .derive = derive,
     .derive_ghosts = derive_ghosts,
@@ -468,5 +484,6 @@ const scree_module scree_module_polygon = {
                                   .reach = reach,
                                   .narrowest = narrowest,
                                   .rounding = rounding,
+                                  .corners = corners_of,
                                   .dress = dress},
 };

@@ -433,7 +433,7 @@ static scree_status settle_ensembles(question *q, side *s, bool *mine)
     const bool few = interval->count < SCREE_ENSEMBLE_FEWEST && !q->statement->deterministic;
     q->answer->few = few;
     q->answer->verdict = few ? SCREE_UNDECIDED : scree_verdict_of(q->statement, interval);
-    if (few) remark(q->answer, "averages over fewer than %d samples have no interval of 95 %%", SCREE_ENSEMBLE_FEWEST);
+    if (few) remark(q->answer, SCREE_ANSWER_FEW " %d samples have no interval of 95 %%", SCREE_ENSEMBLE_FEWEST);
     return status;
 }
 

@@ -5,6 +5,9 @@
 #include "sweep/findings.h"
 #include "sweep/verdict.h"
 
+/// Begins the remark on an answer that is `few`: the page has no other word of it.
+#define SCREE_ANSWER_FEW "averages over fewer than"
+
 typedef struct scree_answer {
     scree_verdict verdict;
     scree_interval interval;

@@ -454,6 +454,8 @@ scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options
     if (!status) status = open_drive(&d, 0, sweep->member_count);
     if (!status) status = write_record(&d);
     if (!status) {
+        if (sweep->measures_ensembles && sweep->realisations < 2)
+            tell(&d, 1, "ensemble: averages over one member have no intervals: give more `realisations`");
         if (d.done + d.failed > 0)
             tell(&d, 0, "%zu of %zu members are done, %zu have failed, %zu to run", d.done, sweep->member_count,
                  d.failed, d.left);

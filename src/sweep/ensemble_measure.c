@@ -7,13 +7,27 @@
 
 #include <string.h>
 
-/// What may be wrong with averages is told; their numbers are in the files.
+/// Who is told what may be wrong with averages; their numbers are in the files.
+typedef struct listener {
+    const scree_sweep_results *results;
+    size_t told, known; ///< warnings of these averages, and of the same without a fit, which come in the same order
+} listener;
+
 static void pass_warning(void *user, const char *line)
 {
-    const scree_sweep_results *results = user;
+    listener *l = user;
     static const char mark[] = "warning: ";
-    if (strncmp(line, mark, sizeof mark - 1) == 0)
-        scree_sweep_tell(results->options, 1, "ensemble: %s", line + sizeof mark - 1);
+    if (strncmp(line, mark, sizeof mark - 1) == 0 && ++l->told > l->known)
+        scree_sweep_tell(l->results->options, 1, "ensemble: %s", line + sizeof mark - 1);
+}
+
+/// What was wrong with the averages of a point, and with which key. A sweep of one point has no name for it.
+static void tell_problem(const scree_sweep_results *results, size_t point, const scree_error *problem)
+{
+    const char *name = results->sweep->point[point], *option = problem->field;
+    const bool keyed = strncmp(option, "--", 2) == 0;
+    scree_sweep_tell(results->options, 1, "ensemble%s%s%s: %s%s%s%s", name[0] ? " of '" : "", name, name[0] ? "'" : "",
+                     keyed ? "ensemble." : "", keyed ? option + 2 : "", keyed ? ": " : "", problem->message);
 }
 
 /// Folders of the finished members of a point, in the order of seeds; each is to be released.
@@ -57,18 +71,20 @@ static scree_status measure_point(const scree_sweep_results *results, size_t poi
         status = scree_ensemble_folder(output, sizeof output, results->options->output, sweep->point[point], error);
     options.output = output;
     options.no_figures = !results->options->figures;
+    listener l = {.results = results};
     options.message = pass_warning;
-    options.user = (void *)results;
+    options.user = &l;
     if (!status && count > 0) {
         status = scree_measure((const char *const *)folder, count, &options, &problem);
         // Too few piles, or too small ones, for theories still have their averages.
         if (status == SCREE_ERROR_INPUT && options.fit && strcmp(problem.field, "--fit") == 0) {
-            scree_sweep_tell(results->options, 1, "ensemble of '%s': %s", sweep->point[point], problem.message);
+            tell_problem(results, point, &problem);
             options.fit = NULL;
+            l = (listener){.results = results, .known = l.told};
             status = scree_measure((const char *const *)folder, count, &options, &problem);
         }
         if (status == SCREE_ERROR_INPUT)
-            scree_sweep_tell(results->options, 1, "ensemble of '%s': %s", sweep->point[point], problem.message);
+            tell_problem(results, point, &problem);
         else if (status)
             *error = problem;
         if (status == SCREE_ERROR_INPUT)

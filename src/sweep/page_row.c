@@ -79,9 +79,12 @@ static char *beginning(const scree_statement *s, bool first)
     return NULL;
 }
 
-/// As put_value writes it.
+/// As put_value writes it. What an average over few has between brackets is none, as its remark says.
 static bool has_interval(const char *cells, size_t count)
 {
+    const size_t length = strlen(SCREE_ANSWER_FEW), end = strcspn(cells, "\n");
+    for (size_t i = 0; i + length <= end; i++)
+        if (memcmp(cells + i, SCREE_ANSWER_FEW, length) == 0) return false;
     return memchr(cells, '[', strcspn(cells, "|")) || (strncmp(cells, "in ", 3) == 0 && count > 1);
 }
 

@@ -10,11 +10,14 @@
 
 #include "base/memory.h"
 #include "case/case.h"
+#include "case/problems.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /// A page in the making.
 typedef struct page {
@@ -251,6 +254,27 @@ static const char introduction[] =
     "brackets. A case that rests on more realisations on the\n"
     "page that stood here before than in the folders (theirs are gone) keeps its section, a statement its rows.\n";
 
+/// Says which built-in table is nearest to `name`, or else which there are.
+static scree_status refuse_table(const char *name, scree_problems **problems)
+{
+    scree_error error = {.status = SCREE_ERROR_INPUT,
+                         .message = "there is no file and no built-in table of statements "
+                                    "of this name"};
+    const char *names[32];
+    size_t count = 0;
+    (void)snprintf(error.file, sizeof error.file, "%s", name);
+    for (; count < scree_statement_templates_count && count < sizeof names / sizeof *names; count++)
+        names[count] = scree_statement_templates[count].name;
+    const char *nearest = scree_nearest(name, names, count);
+    for (size_t i = 0; !nearest && i < count; i++) {
+        const size_t used = strlen(error.accepted);
+        (void)snprintf(error.accepted + used, sizeof error.accepted - used, "%s%s", i > 0 ? ", " : "", names[i]);
+    }
+    if (nearest) (void)snprintf(error.accepted, sizeof error.accepted, "%s", nearest);
+    if (problems && scree_problems_create(problems) == SCREE_OK) scree_problems_replace(*problems, &error);
+    return SCREE_ERROR_INPUT;
+}
+
 /// Text of a table: a file, or a built-in one.
 static scree_status read_table(const page *p, const char *name, scree_arena *arena, scree_statement_table *table,
                                scree_problems **problems)
@@ -260,6 +284,8 @@ static scree_status read_table(const page *p, const char *name, scree_arena *are
         if (strcmp(built_in->name, name) == 0)
             return scree_statements_read(name, built_in->text, built_in->length, NULL, arena, table, problems);
     }
+    struct stat about;
+    if (stat(name, &about) != 0 && errno == ENOENT) return refuse_table(name, problems);
     char *text = NULL;
     size_t length;
     scree_status status = scree_case_text(name, &text, &length, problems);

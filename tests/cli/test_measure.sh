@@ -94,7 +94,8 @@ head -1 moved/cuts.csv | grep -q 'cambou_xx.*liao_xy.*bagi_yy' || complain "no s
 expect 0 'mean over 3 snapshots' "$scree" measure pile1 --at mean:3 --no-figures -o mean
 
 # What cannot be.
-expect 2 '--element: .* larger than the sample.*take fewer grains' "$scree" measure pile1 --element 5000
+expect 2 '--element: .* larger than the sample.*take a smaller one' "$scree" measure pile1 --element 5000
+expect 2 '--element: an element of 10 m .* larger than the sample.*take a smaller one' "$scree" measure pile1 --element '10 m'
 # A length is a length, and not as many grains.
 expect 0 '^element_side +0\.005 ' "$scree" measure pile1 --element '5 mm' --no-figures -o few
 expect 2 '--element: an element of 1 m .*larger than the sample' "$scree" measure pile1 --element '1 m'
@@ -143,7 +144,10 @@ quick_realisations: 6
 END
 sed 's/0,0.4/0,4/' averaged.yaml >bad.yaml
 expect 2 "bad.yaml:5:19: ensemble.cuts: .*says no heights of cuts" "$scree" sweep bad.yaml -n
-expect 0 'three piles or more' "$scree" sweep averaged.yaml -o averaged --jobs 2
+expect 0 'ensemble: ensemble\.fit: .*three piles or more' "$scree" sweep averaged.yaml -o averaged --jobs 2
+same "$(grep -c 'seed=1: an element holds 6 grains' <<<"$output")" 1 "a warning beside theories that cannot be fitted: $output"
+same "$(grep -c "realisations" <<<"$output")" 0 "two members have intervals: $output"
+expect 0 'ensemble: averages over one member have no intervals: give more .realisations.' "$scree" sweep averaged.yaml -o single --realisations 1
 expect 0 'ensemble: averaged/members/000-seed=1: an element holds 6 grains' "$scree" sweep averaged.yaml -o averaged --jobs 2
 expect 0 '' cmp averaged/ensemble/all/cuts.csv both/cuts.csv
 expect 0 '' cmp averaged/ensemble/all/dips.csv both/dips.csv

@@ -26,6 +26,7 @@ given '[[0,1],[0.588,-0.809],[-0.951,0.309],[0.951,0.309],[-0.588,-0.809]]' "${h
 given '[[0,0],[.nan,0],[0,1]]' "^bad\.yaml:$corners:20: particles\.corners: '\.nan' is not a number"
 same "$(grep -c . <<<"$output")" 1 "one problem, one message"
 given '[[0,0],[a,0],[0,1]]' "^bad\.yaml:$corners:20: particles\.corners: 'a' is not a number"
+given corners.txt "${here}a single value is given; expected a list of pairs, e.g. \\[\\[0, 1\\], \.\.\.\\], or the name of a \.csv file of them"
 given '[[0,0,1],[1,0],[0,1]]' "^bad\.yaml:$corners:13: particles\.corners: expected a pair of values"
 
 # A thousand corners, in the case and in a file.
@@ -70,10 +71,35 @@ changed 's/radius_min: .*/radius_min: -1 mm/' "particles\.radius_min: '-1 mm' is
 changed 's/radius_min: .*/radius_min: 5 mm/' "particles\.radius_min: '5 mm' is larger than radius_max"
 changed 's/^dimension: 2/dimension: 3/' 'particles\.shape: polygons are bodies in the plane: dimension: 2'
 changed 's/law: polygon_overlap/law: hertz_mindlin/; /damping_constant/d' 'contact\.law: law hertz_mindlin has no meaning for polygons with sharp corners: give particles\.rounding .*polygon_overlap, polygon_potential'
+for law in hertz_jkr hertz_dmt; do
+    # Rounding would be refused, too; the law is told beside a key that it does not use.
+    changed "s/law: polygon_overlap/law: $law/" "contact\.law: law $law sticks: sharp polygons need one that only pushes: polygon_overlap, polygon_potential\$"
+    grep -q 'damping_constant: not used' <<<"$output" || complain "nothing of the unused key: $output"
+    grep -q 'rounding' <<<"$output" && complain "rounding is offered to a law that sticks: $output"
+    changed "s/law: polygon_overlap/law: $law/; s/corners_min: 6/&\n  rounding: 0.1/" "contact\.law: law $law sticks: rounded polygons need one that only pushes: .*hertz_mindlin.*linear$"
+    grep -q "pushes: .*$law" <<<"$output" && complain "a law that sticks is offered: $output"
+done
+changed 's/law: polygon_overlap/law: hertz_mindlin/' 'contact\.law: law hertz_mindlin has no meaning for polygons with sharp corners: give particles\.rounding'
+grep -q 'damping_constant: not used' <<<"$output" || complain "nothing of the unused key: $output"
 changed 's/corners_min: 6/&\n  rounding: 0.1/' 'particles\.rounding: law polygon_overlap .*leave rounding out, or take contact\.law .*linear'
 changed 's/corners_min: 6/&\n  rounding: 1/' "particles\.rounding: '1' is too large .accepted: 0 to 0\.9"
+changed 's/    place: \[0, 50 cm\]/    place: 25 cm/' 'sources\.0\.place: expected two or three values, e\.g\. \[0, 0\.5 mm\]'
 changed '/stage: relax/i\  - stage: confine\n    pressure: 10 kPa\n    boundary: membrane' 'stages\.2\.boundary: `sources` and boundary: membrane do not go together: in a case with walls this stage has no free surface of the sample: only relax or pour can follow'
 same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
+# The same of a boundary that no stage has chosen, and of what is said to such a one.
+boundary() { # LINE PATTERN: the case with this line in its section `boundary`
+    changed "s|^measure:|boundary:\n  $1\nmeasure:|" "$2"
+}
+boundary 'lateral: membrane' '^bad\.yaml:[0-9]+:[0-9]+: boundary\.lateral: `sources` and boundary: membrane do not go together: sources pour beside walls of the case only; give `walls` and boundary: walls'
+same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
+for key in 'penalty: 1e6 Pa s' 'servo_gain: 2' 'membrane_stiffness: 1 N/mm' 'gap_limit: 1' 'every: 100'; do
+    boundary "$key" "^bad\.yaml:[0-9]+:[0-9]+: boundary\.${key%%:*}: not used: all stages stand beside the .walls. of the case"
+done
+# Gaps are asked for by selections of a side, too; and a case as it is written out says the values of before.
+sed 's/^measure:/selections: [{select: side, name: low, side: bottom}]\nboundary: {gap_limit: 1}\nmeasure:/' good.yaml >bad.yaml
+expect 0 'gap_limit: 1 ' "$scree" check bad.yaml
+"$scree" check good.yaml >written.yaml
+expect 0 'membrane_stiffness: 10 N/mm' "$scree" check written.yaml
 changed 's/^measure:/boundary:\n  periodic: x\nmeasure:/' 'sources\.0\.source: sources do not pour into a sample that repeats itself: leave boundary\.periodic out'
 changed 's/^stages:/  - source: point\n    name: again\n    place: [0, 50 cm]\n    interval: 0.1 s\n\nstages:/' 'sources\.1\.source: it is in the same place as sources\.0.*give it another place'
 changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is above the critical step of this case.*or auto'
@@ -215,5 +241,29 @@ expect 2 'stages\.0\.width: the periodic cell is only 0\.03 m wide along x, .*tw
 sed 's/radius: 5 cm/radius: 1 cm/; s/young_modulus: 1e7/young_modulus: 1e4/; s/\[{position: \[2 cm, 2 cm\]}\]/[{position: [2 cm, 2 cm], velocity: [0, -20]}]/; s/step: 1e-6/step: 1e-5/' big.yaml >bad.yaml
 expect 3 'particle 0 at .*guard\.overlap.*try a stiffer material' "$scree" run bad.yaml --no-figures -o deep
 expect 0 'stopped' "$scree" get deep status
+expect 0 'snapshot [0-9]* .*nothing can go on from it: snapshot [0-9]* has no state to go on from: it shows what a guard stopped, or was kept so' "$scree" check deep
+
+# Two that strike within one large step: which the other one is, and that it is wholly inside.
+cat >strike.yaml <<'CASE'
+scree: 1
+name: strike
+gravity: [0, 0]
+materials:
+  - {name: stone, young_modulus: 1e5 Pa, density: 2500 kg/m3, friction: 0.5}
+particles: {shape: polygon, outline: regular, material: stone, thickness: 1 m, count: 2, radius_min: 4 mm, radius_max: 4 cm}
+contact: {law: polygon_overlap}
+integrator: {scheme: velocity_verlet, step: 4e-3 s}
+guard: {stability: warn}
+walls:
+  - {shape: plane, point: [0, -50 cm], normal: [0, 1]}
+stages:
+  - {stage: prepare, method: bodies, width: 40 cm, height: 40 cm, bodies: [{position: [20 cm, 20 cm], radius: 4 cm}, {position: [20 cm, 25 cm], radius: 5 mm, velocity: [0, -9 m/s]}]}
+  - {stage: relax, boundary: walls, duration: 0.01 s}
+measure: {cells: no}
+output: {paraview: no, figures: no}
+CASE
+expect 3 'particle 0 at .*guard\.overlap. by particle 1: one of them lies inside the other; .*a slower rate or a smaller step' "$scree" run strike.yaml -o strike
+sed 's/-9 m/-3 m/' strike.yaml >bad.yaml
+expect 3 'particle 0 at .*guard\.overlap. by particle 1; .*a smaller step' "$scree" run bad.yaml -o strike-less
 
 finish

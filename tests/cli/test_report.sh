@@ -219,7 +219,8 @@ wrong 's/case: mine/case: mien/' "4:11: case: there is no sweep or case 'mien'; 
 wrong 's/value: mine.r, criterion: within/value: mine\/III.r, criterion: within/' "10:[0-9]+: ours: there is no point 'III'"
 wrong 's/reason: because/unit: m/' "11:[0-9]+: more: 'form' needs a 'reason'"
 cmp -s page.md before.md || complain "a wrong table changed the page"
-expect 2 'nothing.yaml' "$scree" report runs -s nothing.yaml
+expect 2 '^nothing.yaml: there is no file and no built-in table of statements of this name .accepted: .*padbidri2010' "$scree" report runs -s nothing.yaml
+expect 2 '^padbidri201: there is no file and no built-in table of statements of this name .accepted: padbidri2010.$' "$scree" report runs -s padbidri201
 
 # Averages over members: intervals of files, of differences and quotients of different ensembles, of one and the same.
 average() { # FOLDER POINT RUNS RESULT VALUE LOW HIGH
@@ -269,6 +270,41 @@ rm page.md
 expect 0 '' "$scree" report ens -s ens.yaml -o page.md
 row single | grep -qF '| **undecided** | full | averages over 5 of the 6 runs that are done: call `scree sweep --collect`; averages over fewer than 6 samples have no interval of 95 % |' || complain "few samples: $(row single)"
 row fixed | grep -qF '| **agrees** |' || complain "few samples, deterministic: $(row fixed)"
+# Averages over four full runs have no interval, whatever their row shows: six quick ones stay on the page and count
+# when their folders are gone, as they count beside such a row.
+sed -n '1,/id: single/p' ens.yaml >few.yaml
+sweep few/quick pair true one <<'END'
+1 done 0.81 aaa 2.0
+2 done 0.82 aaa 2.0
+3 done 0.83 aaa 2.0
+4 done 0.84 aaa 2.0
+5 done 0.85 aaa 2.0
+6 done 0.86 aaa 2.0
+END
+sweep few/full pair false one <<'END'
+1 done 0.81 aaa 2.0
+2 done 0.82 aaa 2.0
+3 done 0.83 aaa 2.0
+4 done 0.84 aaa 2.0
+5 missing 0 x 0
+6 missing 0 x 0
+END
+average few/quick one 6 dip 0.3 0.26 0.33
+average few/full one 4 dip 0.5 0.46 0.53
+rm page.md
+expect 0 '' "$scree" report few -s few.yaml -o page.md
+row single | tail -1 | grep -qF '| 0.3 [0.26, 0.33] | 6 of 6 | **differs** | quick |' || complain "six quick runs beside four full ones: $(row single)"
+rm page.md
+expect 0 '' "$scree" report few/quick -s few.yaml -o page.md
+cp page.md six.md
+expect 0 '1 cases stay as page.md had them' "$scree" report few/full -s few.yaml -o page.md
+cmp -s page.md six.md || complain "four full runs in place of six quick ones: $(row single)"
+# Where only the full row stands, quick runs with an interval take its place.
+rm page.md
+expect 0 '' "$scree" report few/full -s few.yaml -o page.md
+row single | grep -qF '| 4 of 6 | **undecided** | full |' || complain "four full runs alone: $(row single)"
+expect 0 '' "$scree" report few/quick -s few.yaml -o page.md
+row single | grep -qF '| 0.3 [0.26, 0.33] | 6 of 6 | **differs** | quick |' || complain "six quick runs after four full ones: $(row single)"
 sed -i 's/two.ensemble_dip,/two.ensemble_dpi,/' ens.yaml
 expect 2 "there is no result 'ensemble_dpi'; did you mean 'ensemble_dip'" "$scree" report ens -s ens.yaml -o page.md
 finish ""

@@ -88,6 +88,9 @@ same "$(head -1 slopes/vertical-table.csv)" 'x [m],dip [Pa],smooth [Pa],peak [Pa
 same "$(sed -n '2p' slopes/vertical-table.csv)" '-1.88072647,0,0,0'
 same "$(tail -1 slopes/vertical-table.csv)" '2.60508906,0,0,0'
 expect 0 '^peak_solutions +0' "$scree" theory wedge --phi 28,21 --axis free
+# No kind has a solution about a ray that is far from the vertical.
+expect 2 '^scree theory wedge: (--)?axis: no wedge balances about a ray 50 degrees from the vertical .accepted: .*free' "$scree" theory wedge --phi 28 --axis 50
+expect 0 '^peak_solutions +1' "$scree" theory wedge --phi 28 --axis 0
 expect 0 '^smooth_core_left +44' "$scree" theory wedge --phi 25,21 --friction 30 --state passive
 # R 4.30 - 4.32, with mu from the condition of yield at the surface
 expect 0 '^eta +0.74' "$scree" theory osl --phi 28 --eta 0.74

@@ -319,6 +319,78 @@ static void what_cannot_be_is_refused(void **unused)
     for (size_t k = 0; k < sizeof in_3d / sizeof *in_3d; k++) check_refusal(spheres, &in_3d[k]);
 }
 
+/// Bricks of 2 mm x 1 mm, one lying on the bottom, the other on it. The disc of equal area has 1.6 mm.
+static const char bricks[] =
+    "materials: [{name: stone, young_modulus: 1e7 Pa, density: 5000 kg/m3, friction: 0.5}]\n"
+    "particles: {shape: polygon, outline: given, corners: [[0, 0], [2, 0], [2, 1], [0, 1]], material: stone, "
+    "thickness: 1 m, count: 2, distribution: equal, radius: 0.7978845608028654 mm}\n"
+    "contact: {law: polygon_overlap}\n"
+    "gravity: [0, -9.81 m/s2]\n"
+    "stages:\n"
+    "  - stage: prepare\n"
+    "    method: bodies\n"
+    "    width: 10 mm\n"
+    "    height: 10 mm\n"
+    "    bodies:\n"
+    "      - {position: [3 mm, 0.5 mm]}\n"
+    "      - {position: [3.1 mm, 1.5 mm]}\n"
+    "  - {stage: relax, duration: 1 ms, boundary: plates}\n";
+
+/// What stands on each other touches no more than its outlines say, turned, rounded, with a ghost, at a wall.
+static void bricks_may_lie_on_each_other(void **unused)
+{
+    (void)unused;
+    static const char *const sets[][2] = {
+        {"stages.0.bodies.1.position=[3 mm, 1.5 mm]", NULL},
+        {"stages.0.bodies.1.position=[3 mm, 1.8 mm]", NULL},
+        {"stages.0.bodies=[{position: [3 mm, 1 mm], angle: 90 degrees}, {position: [4 mm, 1 mm], angle: 90 degrees}]",
+         NULL},
+        {"stages.0.bodies=[{position: [3 mm, 9.5 mm]}, {position: [1 mm, 9.5 mm]}]", NULL},
+        // Of a rounded brick of the same area the sides are a little shorter.
+        {"particles.rounding=0.1", "contact={law: linear}"},
+    };
+    for (size_t k = 0; k < sizeof sets / sizeof *sets; k++) {
+        scree_case *c;
+        scree_simulation s;
+        prepare(bricks, sets[k], sets[k][1] ? 2 : 1, &c, &s);
+        assert_int_equal(s.state.count, 2);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
+static void bricks_that_overlap_are_refused(void **unused)
+{
+    (void)unused;
+    static const refusal wrong[] = {
+        // A = 0.4 mm2 over l = 0.2 mm, half of an arm; the bounding circle has 1.118 mm.
+        {"stages.0.bodies.1.position=[3 mm, 1.3 mm]", "stages.0.bodies.1.position",
+         "bodies 0 and 1 lie 0.0002 m deep in each other, which is an overlap of 0.002 m to their law; "
+         "guard.overlap allows 0.000223607 m",
+         NULL},
+        // Discs of equal area would leave 0.2 mm between them: the corners meet.
+        {"stages.0.bodies.1.position=[4.8 mm, 0.5 mm]", "stages.0.bodies.1.position",
+         "bodies 0 and 1 lie 0.0002 m deep in each other", NULL},
+        {"stages.0.bodies.1.position=[4.2 mm, 1 mm]", "stages.0.bodies.1.position", "lie 0.0005 m deep in each other",
+         NULL},
+        {"stages.0.bodies=[{position: [3 mm, 0.5 mm]}, {position: [3 mm, 1.3 mm], angle: 90 degrees}]",
+         "stages.0.bodies.1.position", "lie 0.0007 m deep in each other", NULL},
+        {"stages.0.bodies.1.position=[3 mm, 0.5 mm]", "stages.0.bodies.1.position",
+         "lie 0.001 m deep in each other, where no law has a force", NULL},
+        {"stages.0.bodies.1.position=[9.5 mm, 1.5 mm]", "stages.0.bodies.1.position",
+         "outside of the box: x is 0.0095 m, its outline reaches 0.001 m, and the width of the box 0.01 m", NULL},
+        {"stages.0.bodies=[{position: [3 mm, 0.6 mm], angle: 90 degrees}, {position: [7 mm, 5 mm]}]",
+         "stages.0.bodies.0.position", "outside of the box: y is 0.0006 m, its outline reaches 0.001 m", NULL},
+        {"particles.rounding=0.2", "stages.0.bodies.1.position", "where no law has a force", "contact={law: linear}"},
+    };
+    for (size_t k = 0; k + 1 < sizeof wrong / sizeof *wrong; k++) check_refusal(bricks, &wrong[k]);
+    // Rounded ones have overlaps of features; cores that meet have none.
+    char text[sizeof bricks];
+    memcpy(text, bricks, sizeof bricks);
+    memcpy(strstr(text, "1.5 mm"), "0.9 mm", strlen("0.9 mm"));
+    check_refusal(text, &wrong[sizeof wrong / sizeof *wrong - 1]);
+}
+
 /// A problem says line and column of what is wrong.
 static void problems_point_at_the_body(void **unused)
 {
@@ -367,6 +439,8 @@ int main(void)
         cmocka_unit_test(a_restart_goes_on),
         cmocka_unit_test(set_reaches_one_body),
         cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(bricks_may_lie_on_each_other),
+        cmocka_unit_test(bricks_that_overlap_are_refused),
         cmocka_unit_test(problems_point_at_the_body),
         cmocka_unit_test(the_step_follows_the_bodies),
     };

@@ -66,6 +66,10 @@ static void a_gap_is_the_least_distance(void **unused)
             assert_true(fabs(gap - strip) < 1e-6);
         else if (cores < -1e-6)
             assert_true(gap == -(core[0].rounding + core[1].rounding));
+        // Where cores meet, the directions of their edges are all that it may have, and they are among those looked at.
+        const double depth = scree_core_depth(&core[0], &core[1], apart);
+        assert_true(fabs(depth + strip) < (cores > 1e-6 ? 1e-6 : 1e-12));
+        assert_true(fabs(depth - scree_core_depth(&core[1], &core[0], back)) < 1e-15);
         parted += strip > 0;
         meeting += cores < -1e-6;
     }
@@ -80,6 +84,8 @@ static void bars_that_cross_leave_no_gap(void **unused)
     const scree_core one = {.corner = lying, .count = 4, .bound = 6},
                      other = {.corner = standing, .count = 4, .bound = 6};
     assert_true(scree_core_gap(&one, &other, (const double[2]){1, 0.25}) == 0);
+    // Out over the end of one of them: half a length, half a width, less where they stand already.
+    assert_true(scree_core_depth(&one, &other, (const double[2]){1, 0.25}) == 4.5);
     assert_true(scree_core_gap(&one, &other, (const double[2]){7, 0.25}) == 1.5);
     assert_true(scree_core_gap(&one, &one, (const double[2]){3, 1.25}) == 0.25);
 }
