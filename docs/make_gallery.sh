@@ -9,6 +9,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cp "$here"/tutorials/*.yaml "$here"/tutorials/*.csv "$scratch"
 mkdir "$scratch/pictures" "$scratch/records"
+[ -e "$here"/../records/pile-line.tar.xz ] || { echo "make_gallery.sh: there is no record of the sweep pile-line yet: pour its piles first (docs/full-runs.md)" >&2; exit 2; }
 cp "$here"/../records/pile-line.tar.xz "$scratch/records"
 cd "$scratch"
 

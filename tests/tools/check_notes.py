@@ -7,7 +7,7 @@ import sys
 
 def main():
     page = (pathlib.Path(sys.argv[1]) / "docs/reproduction.md").read_text(encoding="utf-8")
-    noted = set(re.findall(r"^- ([a-z0-9-]+): ", page, re.M))
+    noted = set(re.findall(r"^- ([A-Za-z0-9-]+): ", page, re.M))
     rows = [line.split("|") for line in page.splitlines() if line.startswith("| ") and "**differs**" in line]
     missing = [row[1].strip() for row in rows if row[1].strip() not in noted]
     for name in missing:
