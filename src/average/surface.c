@@ -141,17 +141,32 @@ static int64_t foot(const scree_average_surface *s, int step)
     return last;
 }
 
+/// The highest point of a grain, relative to its centre; of several the left one.
+static double top_of(const scree_average_sample *sample, const scree_average_grain *grain, double *beside)
+{
+    double placed[SCREE_POLYGON_CORNERS][2];
+    *beside = 0;
+    if (grain->corner_count == 0) return grain->radius;
+    scree_average_outline(sample, grain, placed);
+    const scree_core outline = {
+        .corner = (const double(*)[2])placed, .count = (int)grain->corner_count, .rounding = grain->rounding};
+    const scree_outline_extent extent = scree_outline_extent_of(&outline);
+    *beside = extent.top;
+    return extent.high[1];
+}
+
 static void find_ends(const scree_average_sample *sample, scree_average_surface *s)
 {
     const int up = s->dimension - 1;
     s->highest = -INFINITY;
     for (size_t p = 0; p < sample->bodies; p++) {
         const scree_average_grain *grain = &sample->grain[p];
+        double beside;
         if (!grain->counted || !scree_average_bounds(sample, p)) continue;
-        const double top = grain->position[up] + grain->radius;
+        const double top = grain->position[up] + top_of(sample, grain, &beside);
         if (top <= s->highest) continue;
         s->highest = top;
-        s->apex = grain->position[0];
+        s->apex = grain->position[0] + beside;
     }
     s->left = begin_of(s, 0, foot(s, -1));
     s->right = begin_of(s, 0, foot(s, 1) + 1);

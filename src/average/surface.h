@@ -11,8 +11,8 @@
 /// Along a direction in which the sample repeats itself the columns fill the cell and go round; all of it is the heap.
 /// Where it repeats itself upwards there is no surface: it reaches from face to face of the cell, and all is inside.
 ///
-/// Limits: the highest point and the apex are those of bounding circles; columns go round along the axes, also in a
-/// cell that is sheared in the horizontal plane. Cost: linear.
+/// Limits: columns go round along the axes, also in a cell that is sheared in the horizontal plane. Cost: linear in
+/// the corners.
 #ifndef SCREE_AVERAGE_SURFACE_H
 #define SCREE_AVERAGE_SURFACE_H
 

@@ -230,6 +230,9 @@ static void test_surface_of_polygons(void **state)
     const scree_average_element element = {{4, 0, 0}, {8, 4, 0}};
     near(told(&view, &element, SCREE_AVERAGE_DENSITY, "inside"), 0.5, 1e-12);
     near(told(&view, &element, SCREE_AVERAGE_DENSITY, "volume_fraction_parts_inside"), 1, 1e-12);
+    // All tops are equally high: the left corner of the first one.
+    near(view.surface.highest, 2, 1e-14);
+    near(view.surface.apex, 0, 1e-14);
     scree_average_view_close(&view);
     scree_average_sample_destroy(&s);
 }
