@@ -175,23 +175,23 @@ told() { # REMARK OF THE ROW: what both tables say of runs/built
     grep '^| biaxial-boundaries/' page.md | grep -qF "| 3.5 | $1 |" || complain "not '$1': $(grep '^| biaxial-boundaries/' page.md)"
     row large | grep -qF "| one sample: no interval$2 |" || complain "not '$2': $(row large)"
 }
-made runs/built biaxial-boundaries pressure 301
+made runs/built biaxial-boundaries pressure 306
 told '' ''
 made runs/built biaxial-boundaries pressure 101
-told 'seeds are not those of the sweep now (from 301 on)' '; seeds are not those of the sweep now'
+told 'seeds are not those of the sweep now (from 306 on)' '; seeds are not those of the sweep now'
 sed 's/ *| seeds are not.*$/ | /; s/ | remark |$/ |/' page.md >older.md
-made runs/built biaxial-boundaries pressure 301 stages.confine.friction=0.05
+made runs/built biaxial-boundaries pressure 306 stages.confine.friction=0.05
 told 'of another preparation than the case has now (stages.1.friction)' '; of another preparation than the case has now'
-made runs/built biaxial-boundaries pressure 301 stages.compress.rate='1e-3 1/s'
+made runs/built biaxial-boundaries pressure 306 stages.compress.rate='1e-3 1/s'
 told 'of another setting than the case has now (stages.2.rate)' '; of another setting than the case has now'
 # A preparation counts before anything else that differs.
-made runs/built biaxial-boundaries pressure 301 contact.damping_time='3 ms' stages.confine.friction=0.05
+made runs/built biaxial-boundaries pressure 306 contact.damping_time='3 ms' stages.confine.friction=0.05
 told 'of another preparation than the case has now (stages.1.friction)' '; of another preparation than the case has now'
 # Runs that are gone have left their seeds, on a page without such remarks too.
 mkdir -p nothing
 cp older.md page.md
 expect 0 '1 cases stay' "$scree" report nothing --statements built.yaml -o page.md
-grep '^| biaxial-boundaries/' page.md | grep -qF '| 3.5 | seeds are not those of the sweep now (from 301 on) |' || complain "seeds of a page: $(grep '^| biaxial-boundaries/' page.md)"
+grep '^| biaxial-boundaries/' page.md | grep -qF '| 3.5 | seeds are not those of the sweep now (from 306 on) |' || complain "seeds of a page: $(grep '^| biaxial-boundaries/' page.md)"
 grep -qE '^\| runs .* \| remark \|$' page.md || complain "the head of a table that stays: $(grep '^| runs ' page.md)"
 cp page.md older.md
 expect 0 '1 cases stay' "$scree" report nothing --statements built.yaml -o page.md
