@@ -85,7 +85,7 @@ show 'Sand pile' 'Discs that resist rolling, through a funnel onto a plate: when
     pile=pile/figures/pile <<'END'
 scree run pile-hopper --quick -o pile
 END
-show 'Pile of polygons' 'A full pile of the sweep `pile-line`, as the records keep it: polygons rained layer by layer from a line as wide as the plateau, and when each has come.' \
+show 'Pile of polygons' 'A full pile of the sweep `pile-line`, as records keep it (these pictures: that of commit 54fef465, poured by an earlier rule of sleep): polygons rained layer by layer from a line as wide as the plateau, and when each has come.' \
     pile-polygons=pile-line/members/000-narrow-seed=501/figures/scene-birth-000016 <<'END'
 tar -xJf records/pile-line.tar.xz
 scree plot pile-line/members/000-narrow-seed=501 --scene birth
