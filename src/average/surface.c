@@ -39,6 +39,14 @@ static double away(const scree_average_surface *s, int axis, int64_t k, double p
     return begin_of(s, axis, k) + 0.5 * s->width[axis] - place;
 }
 
+/// The outline of a polygon as it lies; `placed`: room for its corners.
+static scree_core outline_of(const scree_average_sample *sample, const scree_average_grain *grain, double (*placed)[2])
+{
+    scree_average_outline(sample, grain, placed);
+    return (scree_core){
+        .corner = (const double(*)[2])placed, .count = (int)grain->corner_count, .rounding = grain->rounding};
+}
+
 /// The vertical extent of a grain at (dx, dy) from its centre, relative to that; false: it does not reach there.
 static bool find_chord(const scree_average_sample *sample, const scree_average_grain *grain, double dx, double dy,
                        double chord[2])
@@ -49,9 +57,7 @@ static bool find_chord(const scree_average_sample *sample, const scree_average_g
     chord[0] = -chord[1];
     if (grain->corner_count == 0) return true;
     double placed[SCREE_POLYGON_CORNERS][2];
-    scree_average_outline(sample, grain, placed);
-    const scree_core outline = {
-        .corner = (const double(*)[2])placed, .count = (int)grain->corner_count, .rounding = grain->rounding};
+    const scree_core outline = outline_of(sample, grain, placed);
     return scree_outline_chord(&outline, dx, chord);
 }
 
@@ -147,9 +153,7 @@ static double top_of(const scree_average_sample *sample, const scree_average_gra
     double placed[SCREE_POLYGON_CORNERS][2];
     *beside = 0;
     if (grain->corner_count == 0) return grain->radius;
-    scree_average_outline(sample, grain, placed);
-    const scree_core outline = {
-        .corner = (const double(*)[2])placed, .count = (int)grain->corner_count, .rounding = grain->rounding};
+    const scree_core outline = outline_of(sample, grain, placed);
     const scree_outline_extent extent = scree_outline_extent_of(&outline);
     *beside = extent.top;
     return extent.high[1];

@@ -392,7 +392,9 @@ static scree_status wake(const scree_context *c, scree_error *error)
     const scree_sleep_limits limits = limits_of(c->model, c->state);
     scree_sleep *sleep = scree_sleep_of(c->state);
     (void)error;
-    if (all_wake(c)) wake_all(c);
+    // Otherwise gravity and walls are what they were.
+    if (!all_wake(c)) return SCREE_OK;
+    wake_all(c);
     if (!may_sleep(c, &limits)) return SCREE_OK;
     memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
     sleep->walls = scree_case_walls_that_move(c->model, c->state);

@@ -108,18 +108,14 @@ static bool look_at(const scree_state *state, const scree_contact *contact, cons
 }
 
 /// Whether the body further out bears a strong contact across the branch.
-static bool is_crossed(const scree_state *state, const scree_contact_table *table, const handing *h, double mean)
+static bool is_crossed(const scree_contact_table *table, const handing *h, double mean)
 {
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *other = &table->contact[c];
         if (other->wall || (other->first != h->outer && other->second != h->outer)) continue;
         if (!(scree_rotation_force(other) > mean)) continue;
-        scree_vector one, two;
-        scree_body_position(state, other->first, one);
-        scree_body_position(state, other->second, two);
-        for (int i = 0; i < 3; i++) two[i] -= one[i];
-        (void)scree_rotation_normalise(two);
-        if (fabs(scree_rotation_dot(two, h->branch)) < OUTWARD) return true;
+        const double along = fabs(scree_rotation_dot(other->branch, h->branch));
+        if (along < OUTWARD * scree_length(other->branch)) return true;
     }
     return false;
 }
@@ -152,7 +148,7 @@ void scree_rotation_transmission_measure(const scree_model *model, const scree_s
         if (!look_at(state, &table->contact[c], &l, out->major, &h)) continue;
         h.force = scree_rotation_force(&table->contact[c]) / mean;
         sort_in(out, &h);
-        if (h.outward) add(is_crossed(state, table, &h, mean) ? &out->crossed : &out->open, &h);
+        if (h.outward) add(is_crossed(table, &h, mean) ? &out->crossed : &out->open, &h);
     }
     finish(&out->strong);
     finish(&out->weak);
