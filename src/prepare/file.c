@@ -11,6 +11,7 @@
 #include "grains/grains.h"
 #include "module/key_rows.h"
 #include "prepare/given.h"
+#include "prepare/given_outline.h"
 #include "prepare/methods.h"
 #include "prepare/prepare.h"
 #include "state/body.h"
@@ -242,9 +243,10 @@ static bool check_radii(const judged *j)
     const double *radius = j->g->column[SCREE_GRAIN_RADIUS];
     if (!(sizes.least > 0)) return false; // missing or wrong, and noted
     if (!j->g->sized && !scree_listed_equal(j->config)) {
-        scree_rule_refuse(j->reader, "stages.0.file", NULL,
-                          "the file has no radii: give it a column radius or diameter, or `particles` distribution: equal "
-                          "with the radius that all have");
+        scree_rule_refuse(
+            j->reader, "stages.0.file", NULL,
+            "the file has no radii: give it a column radius or diameter, or `particles` distribution: equal "
+            "with the radius that all have");
         return false;
     }
     double least = INFINITY, most = 0;
@@ -265,22 +267,37 @@ static bool check_radii(const judged *j)
     return least > 0;
 }
 
+/// What a grain reaches from its centre towards both walls across direction c [m].
+static void find_reach(const judged *j, bool outlines, size_t i, int c, double reach[2])
+{
+    double *const *column = j->g->column;
+    reach[0] = reach[1] = column[SCREE_GRAIN_RADIUS][i];
+    if (!outlines) return;
+    const double angle = column[SCREE_GRAIN_ANGLE] ? column[SCREE_GRAIN_ANGLE][i] : 0;
+    const scree_given_outline outline = scree_given_outline_of(j->config, i, reach[0], angle);
+    for (int k = 0; k < 2; k++)
+        reach[k] = scree_given_outline_support(&outline, (double[2]){c == 0 ? 2 * k - 1 : 0, c == 1 ? 2 * k - 1 : 0});
+}
+
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.
 static void check_inside(const judged *j)
 {
     const scree_prepare_config *stage = scree_config_prepared(scree_config_prepare(j->config));
     const bool in_3d = j->config->dimension == 3;
     const double side[3] = {stage->width, in_3d ? stage->depth : j->own->height, j->own->height};
+    const bool outlines = scree_given_has_outlines(j->config);
     size_t outside = 0, first = 0;
     for (size_t i = 0; i < j->g->count && scree_given_has_box(j->config); i++)
         for (int c = 0; c < j->config->dimension && j->g->column[c]; c++) {
             const bool periodic = j->config->boundary.periodic >> c & 1;
-            const double radius = j->g->column[SCREE_GRAIN_RADIUS][i], at = j->g->column[c][i];
-            const double reach = periodic ? 0 : radius * (1 - j->config->guard.overlap);
+            const double allowed = j->config->guard.overlap * j->g->column[SCREE_GRAIN_RADIUS][i];
+            const double at = j->g->column[c][i];
+            double reach[2];
+            find_reach(j, outlines, i, c, reach);
             const double end = !isnan(side[c]) ? side[c]
                                : j->g->bounded ? j->g->bounds[c][1] - j->g->bounds[c][0]
                                                : INFINITY;
-            if (!(at < reach || at > end - reach)) continue;
+            if (!(at < (periodic ? 0 : reach[0] - allowed) || at > end - (periodic ? 0 : reach[1] - allowed))) continue;
             first = outside++ ? first : i;
             break;
         }
@@ -294,29 +311,42 @@ static void check_inside(const judged *j)
             j->g->column[in_3d && j->g->column[2] ? SCREE_GRAIN_Z : SCREE_GRAIN_RADIUS][first]);
 }
 
+static void refuse_overlaps(const judged *j, const scree_given_overlap *found)
+{
+    const char *remedy = "let them come apart by a smaller radius_factor, or by a larger guard.overlap and a first "
+                         "stage relax with a load of background damping";
+    const char *plural = found->count > 1 ? "s overlap" : " overlaps";
+    if (isinf(found->overlap))
+        scree_rule_refuse(
+            j->reader, "stages.0.file", NULL,
+            "%zu pair%s by more than guard.overlap allows, grains %zu and %zu (from 0) so deep that no law "
+            "has a force: let them come apart by a smaller radius_factor",
+            found->count, plural, found->first, found->second);
+    else
+        scree_rule_refuse(j->reader, "stages.0.file", NULL,
+                          "%zu pair%s by more than guard.overlap allows (%.3g of the smaller radius), most of all "
+                          "grains %zu and %zu (from 0), by %.3g of it: %s",
+                          found->count, plural, j->config->guard.overlap, found->first, found->second, found->share,
+                          remedy);
+}
+
 static void check_overlaps(const judged *j)
 {
+    double *const *column = j->g->column;
     const bool in_3d = j->config->dimension == 3;
-    const double *const place[3] = {j->g->column[0], j->g->column[1], in_3d ? j->g->column[2] : NULL};
+    const scree_given_bodies bodies = {.count = j->g->count,
+                                       .place = {column[0], column[1], in_3d ? column[2] : NULL},
+                                       .radius = column[SCREE_GRAIN_RADIUS],
+                                       .angle = column[SCREE_GRAIN_ANGLE],
+                                       .outlines = scree_given_has_outlines(j->config) ? j->config : NULL};
     scree_given_overlap found;
     scree_error error;
     double lower, upper;
-    if (in_3d ? !place[2] : !scree_grains_are_2d(j->g, &lower, &upper)) return; // noted
-    if (scree_given_find_overlap(j->g->count, place, j->g->column[SCREE_GRAIN_RADIUS], j->config->guard.overlap, &found,
-                                 &error)) {
+    if (in_3d ? !column[2] : !scree_grains_are_2d(j->g, &lower, &upper)) return; // noted
+    if (scree_given_find_overlap(&bodies, j->config->guard.overlap, &found, &error))
         scree_reader_fail(j->reader, j->g->count);
-        return;
-    }
-    if (found.count == 0) return;
-    const double *radius = j->g->column[SCREE_GRAIN_RADIUS];
-    scree_rule_refuse(
-        j->reader, "stages.0.file", NULL,
-        "%zu pair%s by more than guard.overlap allows (%.3g of the smaller radius), most of all grains %zu and %zu "
-        "(from "
-        "0), by %.3g of it: let them come apart by a smaller radius_factor, or by a larger guard.overlap and a first "
-        "stage relax with a load of background damping",
-        found.count, found.count > 1 ? "s overlap" : " overlaps", j->config->guard.overlap, found.first, found.second,
-        found.overlap / fmin(radius[found.first], radius[found.second]));
+    else if (found.count > 0)
+        refuse_overlaps(j, &found);
 }
 
 static void refuse_file(scree_reader *reader, const scree_error *why)

@@ -2,7 +2,9 @@
 #include "prepare/given.h"
 
 #include "base/memory.h"
+#include "base/vectors.h"
 #include "case/check.h"
+#include "prepare/given_outline.h"
 #include "prepare/methods.h"
 
 #include <math.h>
@@ -61,77 +63,95 @@ typedef struct grid {
     uint32_t *begin, *body; ///< of each cell in `body`
 } grid;
 
-static size_t cell_of(const grid *g, const double *const place[3], size_t i)
+/// No body reaches farther from its centre [m].
+static double reach_of(const scree_given_bodies *bodies, size_t i)
+{
+    return bodies->outlines ? scree_given_reach(bodies->outlines, bodies->radius[i]) : bodies->radius[i];
+}
+
+static size_t cell_of(const grid *g, const scree_given_bodies *bodies, size_t i)
 {
     size_t index[3] = {0};
-    for (int k = 0; k < 3 && place[k]; k++)
-        index[k] = scree_cell_within(place[k][i] - g->lower[k], g->cell, g->side[k]);
+    for (int k = 0; k < 3 && bodies->place[k]; k++)
+        index[k] = scree_cell_within(bodies->place[k][i] - g->lower[k], g->cell, g->side[k]);
     return (index[2] * g->side[1] + index[1]) * g->side[0] + index[0];
 }
 
 /// Cells as wide as the largest body, or wider so that there are no more of them than bodies.
-static void size_grid(grid *g, size_t count, const double *const place[3], const double *radius)
+static void size_grid(grid *g, const scree_given_bodies *bodies)
 {
+    const double *const *place = bodies->place;
+    const double count = (double)bodies->count;
     double upper[3] = {0}, cells = 1;
     for (int k = 0; k < 3; k++) {
         g->side[k] = 1;
-        for (size_t i = 0; i < count && place[k]; i++) {
+        for (size_t i = 0; i < bodies->count && place[k]; i++) {
             g->lower[k] = i ? fmin(g->lower[k], place[k][i]) : place[k][i];
             upper[k] = i ? fmax(upper[k], place[k][i]) : place[k][i];
         }
     }
-    for (size_t i = 0; i < count; i++) g->cell = fmax(g->cell, 2 * radius[i]);
+    for (size_t i = 0; i < bodies->count; i++) g->cell = fmax(g->cell, 2 * reach_of(bodies, i));
     for (int k = 0; k < 3; k++) cells *= fmax((upper[k] - g->lower[k]) / g->cell, 1);
-    if (cells > (double)count)
-        g->cell *= cbrt(cells / (double)count) * (place[2] ? 1 : sqrt(cbrt(cells / (double)count)));
+    if (cells > count) g->cell *= cbrt(cells / count) * (place[2] ? 1 : sqrt(cbrt(cells / count)));
     for (int k = 0; k < 3 && place[k]; k++) g->side[k] = (size_t)((upper[k] - g->lower[k]) / g->cell) + 1;
 }
 
-static scree_status fill_grid(grid *g, size_t count, const double *const place[3], scree_error *error)
+static scree_status fill_grid(grid *g, const scree_given_bodies *bodies, scree_error *error)
 {
     const size_t cells = g->side[0] * g->side[1] * g->side[2];
     scree_status status = scree_allocate(&g->begin, cells + 2, sizeof *g->begin, error);
-    if (!status) status = scree_allocate(&g->body, count, sizeof *g->body, error);
+    if (!status) status = scree_allocate(&g->body, bodies->count, sizeof *g->body, error);
     if (status) return status;
-    for (size_t i = 0; i < count; i++) g->begin[cell_of(g, place, i) + 2]++;
+    for (size_t i = 0; i < bodies->count; i++) g->begin[cell_of(g, bodies, i) + 2]++;
     for (size_t c = 2; c < cells + 2; c++) g->begin[c] += g->begin[c - 1];
-    for (size_t i = 0; i < count; i++) g->body[g->begin[cell_of(g, place, i) + 1]++] = (uint32_t)i;
+    for (size_t i = 0; i < bodies->count; i++) g->body[g->begin[cell_of(g, bodies, i) + 1]++] = (uint32_t)i;
     return SCREE_OK;
 }
 
 /// What a search looks at.
 typedef struct looked {
     const grid *grid;
-    const double *const *place;
-    const double *radius;
-    double allowed, worst;
+    const scree_given_bodies *bodies;
+    double allowed;
     scree_given_overlap *found;
 } looked;
 
+static scree_given_outline outline_of(const scree_given_bodies *bodies, size_t i)
+{
+    const double angle = bodies->angle ? bodies->angle[i] : 0;
+    return scree_given_outline_of(bodies->outlines, i, bodies->radius[i], angle);
+}
+
+/// Overlap of two outlines [m]; smaller: the smaller reach of both [m].
+static double outlines_overlap(const scree_given_bodies *bodies, const size_t pair[2], const double apart[2],
+                               double *smaller)
+{
+    const scree_given_outline first = outline_of(bodies, pair[0]), second = outline_of(bodies, pair[1]);
+    *smaller = fmin(first.bound, second.bound);
+    return scree_given_outline_depth(&first, &second, apart).overlap;
+}
+
 static void look_at(looked *l, size_t one, size_t other)
 {
-    double square = 0;
-    const double smaller = fmin(l->radius[one], l->radius[other]), sum = l->radius[one] + l->radius[other];
-    for (int k = 0; k < 3 && l->place[k]; k++) {
-        const double apart = l->place[k][one] - l->place[k][other];
-        square += apart * apart;
-    }
-    if (!(square < sum * sum)) return;
-    const double overlap = sum - sqrt(square), share = overlap / smaller;
+    const scree_given_bodies *bodies = l->bodies;
+    const size_t pair[2] = {one < other ? one : other, one < other ? other : one};
+    const double sum = reach_of(bodies, one) + reach_of(bodies, other);
+    double apart[3] = {0}, smaller = fmin(bodies->radius[one], bodies->radius[other]);
+    for (int k = 0; k < 3 && bodies->place[k]; k++) apart[k] = bodies->place[k][pair[1]] - bodies->place[k][pair[0]];
+    const double distance = scree_length(apart);
+    if (!(distance < sum)) return;
+    const double overlap = bodies->outlines ? outlines_overlap(bodies, pair, apart, &smaller) : sum - distance;
+    const double share = overlap / smaller;
     l->found->count += share > l->allowed;
-    if (!(share > l->worst)) return;
-    l->worst = share;
-    l->found->first = one < other ? one : other;
-    l->found->second = one < other ? other : one;
-    l->found->overlap = overlap;
+    if (share > l->found->share) *l->found = (scree_given_overlap){l->found->count, pair[0], pair[1], overlap, share};
 }
 
 static void look_around(looked *l, size_t body)
 {
     const grid *g = l->grid;
     size_t at[3] = {0};
-    for (int k = 0; k < 3 && l->place[k]; k++)
-        at[k] = scree_cell_within(l->place[k][body] - g->lower[k], g->cell, g->side[k]);
+    for (int k = 0; k < 3 && l->bodies->place[k]; k++)
+        at[k] = scree_cell_within(l->bodies->place[k][body] - g->lower[k], g->cell, g->side[k]);
     for (size_t z = at[2] > 0 ? at[2] - 1 : 0; z < g->side[2] && z <= at[2] + 1; z++)
         for (size_t y = at[1] > 0 ? at[1] - 1 : 0; y < g->side[1] && y <= at[1] + 1; y++)
             for (size_t x = at[0] > 0 ? at[0] - 1 : 0; x < g->side[0] && x <= at[0] + 1; x++) {
@@ -141,15 +161,15 @@ static void look_around(looked *l, size_t body)
             }
 }
 
-scree_status scree_given_find_overlap(size_t count, const double *const place[3], const double *radius, double allowed,
-                                      scree_given_overlap *found, scree_error *error)
+scree_status scree_given_find_overlap(const scree_given_bodies *bodies, double allowed, scree_given_overlap *found,
+                                      scree_error *error)
 {
     grid g = {0};
     *found = (scree_given_overlap){0};
-    size_grid(&g, count, place, radius);
-    scree_status status = fill_grid(&g, count, place, error);
-    looked l = {&g, place, radius, allowed, 0, found};
-    for (size_t i = 0; i < count && !status; i++) look_around(&l, i);
+    size_grid(&g, bodies);
+    scree_status status = fill_grid(&g, bodies, error);
+    looked l = {&g, bodies, allowed, found};
+    for (size_t i = 0; i < bodies->count && !status; i++) look_around(&l, i);
     scree_release(&g.begin);
     scree_release(&g.body);
     return status;

@@ -11,15 +11,24 @@ bool scree_given_has_box(const scree_config *config);
 /// others. False: bodies need not be looked at one by one.
 bool scree_given_rules(scree_reader *reader, const scree_config *config, size_t count);
 
-/// The two that overlap most, over the smaller radius of both; count: pairs that overlap by more than `allowed` of it.
+/// Where bodies lie. Lengths in m, angles in rad.
+typedef struct scree_given_bodies {
+    size_t count;
+    const double *place[3];       ///< z NULL: in the plane
+    const double *radius;         ///< of the disc of equal area
+    const double *angle;          ///< NULL: 0
+    const scree_config *outlines; ///< whose particles have corners (prepare/given_outline.h); NULL: they are round
+} scree_given_bodies;
+
+/// The two that overlap most, over the smaller reach of both; count: pairs that overlap by more than `allowed` of it.
 typedef struct scree_given_overlap {
     size_t count, first, second;
-    double overlap; ///< m
+    double overlap; ///< m, what the guard of a run sees; INFINITY: so deep that no law has a force
+    double share;   ///< of the smaller reach
 } scree_given_overlap;
 
-/// Round bodies in space (z NULL: in the plane). Errors: memory. Cost: linear for radii of one size; with broad ones
-/// the largest sets the cells.
-scree_status scree_given_find_overlap(size_t count, const double *const place[3], const double *radius, double allowed,
-                                      scree_given_overlap *found, scree_error *error) SCREE_MUST_USE;
+/// Errors: memory. Cost: linear for radii of one size; with broad ones the largest sets the cells.
+scree_status scree_given_find_overlap(const scree_given_bodies *bodies, double allowed, scree_given_overlap *found,
+                                      scree_error *error) SCREE_MUST_USE;
 
 #endif

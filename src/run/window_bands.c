@@ -21,16 +21,16 @@
 
 static const double APART = 0.25;
 
-bool scree_windows_adjoin(const scree_config_measure *measure, scree_adjoining *out)
+bool scree_windows_followed(const scree_config_measure *measure, scree_followed *out)
 {
     for (int64_t k = 0; k + 1 < measure->window_count; k++) {
         const scree_config_window *one = &measure->windows[k], *next = one + 1;
         if (!(fabs(one->to - next->from) <= 1e-9)) continue;
-        *out = (scree_adjoining){{one->from, one->to, next->to}, 3};
+        *out = (scree_followed){{one->from, one->to, next->to}, 3};
         return true;
     }
     if (measure->window_count != 1) return false;
-    *out = (scree_adjoining){{measure->windows[0].from, measure->windows[0].to}, 2};
+    *out = (scree_followed){{measure->windows[0].from, measure->windows[0].to}, 2};
     return true;
 }
 
@@ -95,7 +95,7 @@ static void forget(nearest place[3])
 
 /// Takes over `number` of the run where it is nearer than what is there.
 static scree_status offer(const char *directory, size_t number, const scree_cell_snapshot *seen,
-                          const scree_adjoining *at, nearest place[3], scree_error *error)
+                          const scree_followed *at, nearest place[3], scree_error *error)
 {
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < at->count && !status; k++) {
@@ -110,7 +110,7 @@ static scree_status offer(const char *directory, size_t number, const scree_cell
 }
 
 /// Fills `place` from the last stage that strains the sample.
-static scree_status find_snapshots(const char *directory, const scree_adjoining *at, nearest place[3],
+static scree_status find_snapshots(const char *directory, const scree_followed *at, nearest place[3],
                                    scree_error *error)
 {
     size_t count = 0;
@@ -133,7 +133,7 @@ static scree_status find_snapshots(const char *directory, const scree_adjoining 
     return status;
 }
 
-static bool are_near(const scree_adjoining *at, const nearest place[3])
+static bool are_near(const scree_followed *at, const nearest place[3])
 {
     double allowed = APART * (at->strain[1] - at->strain[0]);
     if (at->count == 3) allowed = fmin(allowed, APART * (at->strain[2] - at->strain[1]));
@@ -146,10 +146,10 @@ static bool are_near(const scree_adjoining *at, const nearest place[3])
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     const scree_model *model = &run->s->model;
-    scree_adjoining at;
+    scree_followed at;
     scree_window_bands bands;
     char path[4096];
-    if (!model->measure.cells || model->periodic || !scree_windows_adjoin(&model->measure, &at)) return SCREE_OK;
+    if (!model->measure.cells || model->periodic || !scree_windows_followed(&model->measure, &at)) return SCREE_OK;
     scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_RUN, error);
     if (status || access(path, F_OK) != 0) return status;
     nearest place[3] = {{.away = INFINITY}, {.away = INFINITY}, {.away = INFINITY}};

@@ -7,14 +7,14 @@
 #include "io/cell_file.h"
 
 /// Axial strains at which the instants lie: three of two windows, two of one.
-typedef struct scree_adjoining {
+typedef struct scree_followed {
     double strain[3];
     size_t count;
-} scree_adjoining;
+} scree_followed;
 
 /// The first window of `measure` that ends where the next one in the list begins, and that one; or the only one there
 /// is. False: there is none.
-bool scree_windows_adjoin(const scree_config_measure *measure, scree_adjoining *out);
+bool scree_windows_followed(const scree_config_measure *measure, scree_followed *out);
 
 typedef struct scree_window_bands {
     double correlation; ///< of the smoothed distortions at the bodies, first and second window

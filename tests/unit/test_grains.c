@@ -156,10 +156,10 @@ static void overlaps_are_found(void **unused)
             z[i] = drand48();
             radius[i] = 0.01 + 0.04 * drand48() * drand48();
         }
-        const double *const place[3] = {x, y, round % 2 ? z : NULL};
+        const scree_given_bodies bodies = {.count = N, .place = {x, y, round % 2 ? z : NULL}, .radius = radius};
         scree_given_overlap found;
         scree_error error;
-        check(scree_given_find_overlap(N, place, radius, 0.05, &found, &error), &error);
+        check(scree_given_find_overlap(&bodies, 0.05, &found, &error), &error);
         size_t count = 0, first = 0, second = 0;
         double worst = 0;
         for (size_t i = 0; i < N; i++)
@@ -309,6 +309,41 @@ static void cases_are_checked(void **unused)
     expect_refused("x [mm],y [mm]\n1.5,1\n4,1\n6,2\n", NULL, 0, "the file has no radii");
 }
 
+/// Bricks of 2 mm x 1 mm of a file are judged by their outlines: the disc of equal area has 1.6 mm.
+static void polygons_of_a_file_are_judged_by_their_outlines(void **unused)
+{
+    (void)unused;
+    static const char form[] =
+        "scree: 1\nname: bricks\n"
+        "materials: [{name: stone, young_modulus: 1e7 Pa, density: 5000 kg/m3, friction: 0.5}]\n"
+        "particles: {shape: polygon, outline: given, corners: [[0, 0], [2, 0], [2, 1], [0, 1]], material: stone, "
+        "thickness: 1 m, distribution: equal, radius: 0.7978845608028654 mm}\n"
+        "contact: {law: polygon_overlap}\n"
+        "output: {figures: no, paraview: no}\n"
+        "stages:\n- {stage: prepare, method: file, file: %s, width: 10 mm, height: 10 mm}\n"
+        "- {stage: relax, duration: 1 us, boundary: plates}\n";
+    static const struct {
+        const char *rows, *message; ///< NULL: it is taken
+    } tables[] = {
+        {"3,0.5,0\n3,1.5,0\n", NULL},
+        {"3,1,1.5707963267948966\n4,1,1.5707963267948966\n", NULL},
+        {"3,0.5,0\n3,1.3,0\n", "most of all grains 0 and 1 (from 0), by 1.79 of it"}, // A / l = 2 mm, reach 1.118 mm
+        {"3,0.5,0\n4.8,0.5,0\n", "1 pair overlaps"}, // discs of equal area would leave 0.2 mm between them
+        {"3,0.5,0\n3,0.5,0\n", "grains 0 and 1 (from 0) so deep that no law has a force"},
+        {"3,0.5,0\n9.5,2,0\n", "1 of 2 grains lie outside of the box"},
+        {"3,0.5,1.5707963267948966\n7,5,0\n", "1 of 2 grains lie outside of the box"},
+    };
+    for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
+        char table[200], text[4000];
+        (void)snprintf(table, sizeof table, "x [mm],y [mm],angle\n%s", tables[k].rows);
+        (void)snprintf(text, sizeof text, form, write_file("bricks.csv", table));
+        if (tables[k].message)
+            case_refused(text, NULL, 0, tables[k].message);
+        else
+            scree_case_free(case_read(text, NULL, 0));
+    }
+}
+
 /// What particles leave out, the file says: number, limits of the radii, and the material where there is but one.
 static void a_case_leaves_out_what_the_file_says(void **unused)
 {
@@ -384,11 +419,17 @@ static void gradings_stand_in_files(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_have_names_and_units), cmocka_unit_test(dumps_of_lammps),
-        cmocka_unit_test(data_files_of_lammps),        cmocka_unit_test(exports_of_yade),
-        cmocka_unit_test(what_is_wrong_is_shown),      cmocka_unit_test(overlaps_are_found),
-        cmocka_unit_test(a_case_starts_from_a_file),   cmocka_unit_test(a_case_leaves_out_what_the_file_says),
-        cmocka_unit_test(cases_are_checked),           cmocka_unit_test(gradings_stand_in_files),
+        cmocka_unit_test(tables_have_names_and_units),
+        cmocka_unit_test(dumps_of_lammps),
+        cmocka_unit_test(data_files_of_lammps),
+        cmocka_unit_test(exports_of_yade),
+        cmocka_unit_test(what_is_wrong_is_shown),
+        cmocka_unit_test(overlaps_are_found),
+        cmocka_unit_test(a_case_starts_from_a_file),
+        cmocka_unit_test(a_case_leaves_out_what_the_file_says),
+        cmocka_unit_test(cases_are_checked),
+        cmocka_unit_test(polygons_of_a_file_are_judged_by_their_outlines),
+        cmocka_unit_test(gradings_stand_in_files),
         cmocka_unit_test(snapshots_of_runs),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);

@@ -89,16 +89,16 @@ static void windows_adjoin_where_one_ends_as_the_next_begins(void **unused)
     (void)unused;
     scree_config_window windows[] = {{0.07, 0.085}, {0.1, 0.12}, {0.12, 0.14}, {0.14, 0.155}};
     scree_config_measure measure = {.windows = windows, .window_count = 4};
-    scree_adjoining at;
-    assert_true(scree_windows_adjoin(&measure, &at));
+    scree_followed at;
+    assert_true(scree_windows_followed(&measure, &at));
     assert_true(at.count == 3 && at.strain[0] == 0.1 && at.strain[1] == 0.12 && at.strain[2] == 0.14);
     measure.window_count = 2;
-    assert_false(scree_windows_adjoin(&measure, &at));
+    assert_false(scree_windows_followed(&measure, &at));
     measure.window_count = 1;
-    assert_true(scree_windows_adjoin(&measure, &at));
+    assert_true(scree_windows_followed(&measure, &at));
     assert_true(at.count == 2 && at.strain[0] == 0.07 && at.strain[1] == 0.085);
     measure.window_count = 0;
-    assert_false(scree_windows_adjoin(&measure, &at));
+    assert_false(scree_windows_followed(&measure, &at));
 }
 
 int main(void)
