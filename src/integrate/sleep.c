@@ -11,10 +11,12 @@
 /// what others that sleep exert) over the last window, fading exponentially, exceeds `wake` times its weight: it would
 /// have been given that momentum. The mean is taken in every step, and looked at every WAKE_EVERY, one by one, so that
 /// a push runs through a pile as far as it is strong. Every LOOK_EVERY steps wakes, too, what has lost a contact since
-/// the look before, one that it had when it fell asleep or with what came to rest beside it later, what others that
-/// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well; and what has been
-/// out of balance by more than `force` at all looks for a window, as it had to be in balance for one to fall asleep.
-/// All wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, and when another
+/// the look before, one that it had when it fell asleep or with what came to rest beside it later, and what others that
+/// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well. All wake every
+/// `interval`, and none falls asleep for HOLD windows then: what sleepers bear in vain, each less than `wake`, goes on
+/// to where it belongs as a wave does, in the time of one. (Were each woken by what it bears in vain, it would hand
+/// half of it back to those above: a weight would go down n layers by a walk of n^2 steps, each a window long.) All
+/// wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, and when another
 /// stage begins.
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
@@ -22,10 +24,10 @@
 /// as whole numbers (state/sleep.h). So is what walls that stand exert; what all that sleep exert on each of these is
 /// summed anew whenever some beside walls fall asleep or wake.
 ///
-/// An approximation: pushes below `wake` that are shorter than a window, and those below `force`, do not pass what
-/// sleeps, and motion below `force` and `motion` stops; momentum is not kept by what sleeps, as by a wall. What it
-/// changes is measured in docs/theory/pouring.md. Cost: 0.5 ns a body that sleeps, 20 ns one that is pushed, or awake
-/// (every LOOK_EVERY steps); 2 ns a pair of neighbours when one falls asleep or wakes (search/sections.c).
+/// An approximation: pushes below `wake` do not pass what sleeps until all wake, and motion below `force` and `motion`
+/// stops; momentum is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md.
+/// Cost: 0.5 ns a body that sleeps, 20 ns one that is pushed, or awake (every LOOK_EVERY steps); 2 ns a pair of
+/// neighbours when one falls asleep or wakes (search/sections.c).
 #include "state/sleep.h"
 
 #include "base/checksum.h"
@@ -48,6 +50,8 @@
 enum { WAKE_EVERY = 16, LOOK_EVERY = 128 };
 /// Rows that are looked at together.
 enum { BLOCK = 16 };
+/// Windows for which none falls asleep after all have woken.
+static const double HOLD = 4;
 _Static_assert(LOOK_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
 
 // ---- whether ------------------------------------------------------------------------------------------------------
@@ -194,15 +198,6 @@ static double imbalance(const scree_context *c, size_t row)
     return size_of(resultant);
 }
 
-/// Whether it is out of balance by more than a push may be, or has for a window been by more than what is quiet.
-static bool hangs(const scree_context *c, const scree_sleep_limits *limits, size_t row)
-{
-    uint32_t *restless = &scree_sleep_of(c->state)->quiet[row];
-    const double size = imbalance(c, row);
-    *restless = size > limits->force ? *restless + LOOK_EVERY : 0;
-    return size > limits->wake || *restless >= limits->window / c->state->step_size;
-}
-
 /// Marks those that wake because of what is no longer beside them, or never was; returns how many.
 static size_t mark_left(const scree_context *c, const scree_sleep_limits *limits)
 {
@@ -212,7 +207,7 @@ static size_t mark_left(const scree_context *c, const scree_sleep_limits *limits
     for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
         if (sleep->asleep[row] != SCREE_ASLEEP) continue;
         const bool lost = count_contacts(state, row);
-        if (!hangs(c, limits, row) && !lost) continue;
+        if (!(imbalance(c, row) > limits->wake) && !lost) continue;
         sleep->asleep[row] = SCREE_WAKES;
         found++;
     }
@@ -295,6 +290,7 @@ static void wake_all(const scree_context *c)
 {
     scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
+    sleep->woken = scree_state_time(state);
     if (sleep->count == 0) return;
     for (size_t row = 0; row < state->count; row++)
         if (sleep->asleep[row]) sleep->asleep[row] = SCREE_WAKES;
@@ -370,13 +366,14 @@ static scree_status list(const scree_context *c, scree_error *error)
     return status;
 }
 
-/// Whether none may sleep in this step, or those that do fell asleep under another gravity, or beside walls that then
-/// stood or moved and now do not.
+/// Whether none may sleep in this step, or those that do have slept for long, or fell asleep under another gravity, or
+/// beside walls that then stood or moved and now do not.
 static bool all_wake(const scree_context *c)
 {
     const scree_sleep_limits limits = limits_of(c->model, c->state);
     const scree_sleep *sleep = scree_sleep_of(c->state);
-    return !may_sleep(c, &limits) || memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) != 0 ||
+    return !may_sleep(c, &limits) || scree_state_time(c->state) - sleep->woken >= limits.interval ||
+           memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) != 0 ||
            sleep->walls != scree_case_walls_that_move(c->model, c->state);
 }
 
@@ -392,7 +389,6 @@ static scree_status wake(const scree_context *c, scree_error *error)
     const scree_sleep_limits limits = limits_of(c->model, c->state);
     scree_sleep *sleep = scree_sleep_of(c->state);
     (void)error;
-    // Otherwise gravity and walls are what they were.
     if (!all_wake(c)) return SCREE_OK;
     wake_all(c);
     if (!may_sleep(c, &limits)) return SCREE_OK;
@@ -411,7 +407,9 @@ static scree_status decide(const scree_context *c, scree_error *error)
     scree_status status = make_room(state, error);
     if (status) return status;
     int64_t found = (int64_t)mark_waking(c, &limits);
-    if (state->evaluations % LOOK_EVERY == 0) found += (int64_t)(mark_left(c, &limits) + mark_falling(c, &limits));
+    if (state->evaluations % LOOK_EVERY == 0) found += (int64_t)mark_left(c, &limits);
+    const bool held = scree_state_time(state) - sleep->woken < HOLD * limits.window;
+    if (state->evaluations % LOOK_EVERY == 0 && !held) found += (int64_t)mark_falling(c, &limits);
     // In the other steps nobody finds any.
     if (state->evaluations % WAKE_EVERY == 0) scree_comm_add(state, &found, 1);
     sleep->awake_steps += scree_state_total(state) - sleep->total;
@@ -523,8 +521,7 @@ static const scree_field fields[] = {
     WALL(torque, "the same about its centre, in units of sleep/wall_torque_unit"),
     BODY(asleep, uint8_t, "asleep", SCREE_FIELD_UINT8, 1, "1", "1: the body sleeps", .snapshot = true,
          .ghosts = SCREE_GHOSTS_KEEP, SCREE_RANGE(0, 1)),
-    BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1",
-         "steps for which it has been quiet; of one that sleeps, out of balance"),
+    BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1", "steps for which it has been quiet"),
     BODY(resting, scree_resting, "resting", SCREE_FIELD_INT64, 7, "1",
          "of a body that sleeps, from others that do and walls that stand: force in units of sleep/force_unit, torque "
          "in units of "
@@ -543,6 +540,7 @@ static const scree_field fields[] = {
     ONE(wall_torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of the torques on walls", SCREE_RANGE(0, DBL_MAX)),
     ONE(gravity, SCREE_FIELD_DOUBLE, 3, "m/s2", "gravity of the last step in which bodies might sleep"),
     ONE(walls, SCREE_FIELD_UINT64, 1, "1", "a bit for each wall of the case that moved in that step"),
+    ONE(woken, SCREE_FIELD_DOUBLE, 1, "s", "time at which all woke", SCREE_RANGE(0, DBL_MAX)),
     ONE(overlap, SCREE_FIELD_DOUBLE, 1, "m", "bound of the overlaps of those that sleep", SCREE_RANGE(0, DBL_MAX)),
     ONE(taken, SCREE_FIELD_DOUBLE, 1, "J",
         "kinetic energy of bodies when they fell asleep, less that of those that woke"),

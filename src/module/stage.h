@@ -9,10 +9,11 @@ struct scree_config_stage;
 
 /// When bodies may sleep (integrate/sleep.c).
 typedef struct scree_sleep_limits {
-    double window; ///< s, for which a body must be quiet before it sleeps; NAN: none sleeps
-    double force;  ///< 1, resultant over weight (torque: over weight and radius) below which it is quiet
-    double motion; ///< 1, way of its surface in the window at its present speed, over its radius, below which it is
-    double wake;   ///< 1, mean resultant of a window over weight above which it wakes
+    double window;   ///< s, for which a body must be quiet before it sleeps; NAN: none sleeps
+    double force;    ///< 1, resultant over weight (torque: over weight and radius) below which it is quiet
+    double motion;   ///< 1, way of its surface in the window at its present speed, over its radius, below which it is
+    double wake;     ///< 1, mean resultant of a window over weight above which it wakes
+    double interval; ///< s, after which all wake
 } scree_sleep_limits;
 
 /// `config` is the stage's own struct, in which its keys are.

@@ -51,14 +51,17 @@ static const scree_key keys[] = {
            .meaning = "Time for which a particle must be quiet before it is left out of the steps until it is pushed, "
                       "a step at least; auto: all are in all steps. When the sources have stopped all are awake."),
     NUMBER(config, sleep_force, "1", .standard = "0.01", ABOVE("0"), TO("1"),
-           .meaning = "Resultant force over weight below which it is quiet; one that sleeps wakes when it has been "
-                      "above it for a window. Only with `sleep_window`."),
+           .meaning = "Resultant force over weight below which it is quiet; only with `sleep_window`."),
     NUMBER(config, sleep_motion, "1", .standard = "1e-4", ABOVE("0"), TO("1"),
            .meaning = "Way in that time, at the present speed, over its radius, below which it is quiet; only with "
                       "`sleep_window`."),
     NUMBER(config, wake_force, "1", .standard = "0.1", ABOVE("0"), TO("1e6"),
            .meaning =
                "Mean resultant force of the last `sleep_window`, over weight, above which it wakes; only with that."),
+    NUMBER(config, wake_interval, "s", .standard = "1 s", ABOVE("0 s"), TO("1e9 s"),
+           .meaning =
+               "Time after which all wake, for four of `sleep_window`, so that what they bear in vain reaches the "
+               "ground; only with that."),
 };
 
 static const config *own_config(const scree_simulation *s)
@@ -92,7 +95,7 @@ static void check_sleep_keys(scree_reader *reader, int64_t index, const config *
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
         const size_t at = keys[k].offset;
         if (at != offsetof(config, sleep_force) && at != offsetof(config, sleep_motion) &&
-            at != offsetof(config, wake_force))
+            at != offsetof(config, wake_force) && at != offsetof(config, wake_interval))
             continue;
         double value;
         memcpy(&value, (const char *)own + at, sizeof value);
@@ -111,19 +114,27 @@ static void rules(scree_reader *reader, const scree_config *whole)
             check_sleep_keys(reader, i, whole->stages[i].own);
 }
 
-/// A body is quiet for a window when it has been for as many steps: for less than one that is nothing.
+/// A body is quiet for a window when it has been for as many steps: for less than one that is nothing. None falls
+/// asleep before five of them have gone by since all woke (integrate/sleep.c).
 static scree_status resolve(scree_model *model, scree_error *error)
 {
     const double step = model->step * (double)model->largest_step;
     for (int64_t i = 0; i < model->stage_count; i++) {
         const config *own = model->stages[i].own;
         char path[SCREE_PATH_BYTES];
-        if (model->stages[i].kind != SCREE_SLOT_pour || !(own->sleep_window < step)) continue;
-        return scree_error_refuse(
-            error, scree_element_path(path, "stages", i, "sleep_window"), NULL,
-            "%.3g s is less than a step of this case, %.3g s: a particle has to be quiet for many "
-            "(built-in cases: 5 ms)",
-            own->sleep_window, step);
+        if (model->stages[i].kind != SCREE_SLOT_pour) continue;
+        if (own->sleep_window < step)
+            return scree_error_refuse(
+                error, scree_element_path(path, "stages", i, "sleep_window"), NULL,
+                "%.3g s is less than a step of this case, %.3g s: a particle has to be quiet for many "
+                "(built-in cases: 5 ms)",
+                own->sleep_window, step);
+        if (own->wake_interval <= 5 * own->sleep_window)
+            return scree_error_refuse(error, scree_element_path(path, "stages", i, "wake_interval"), NULL,
+                                      "none would ever sleep: within %.3g s all wake for four of `sleep_window`, %.3g "
+                                      "s, and have to be quiet "
+                                      "for another: give more than %.3g s",
+                                      own->wake_interval, own->sleep_window, 5 * own->sleep_window);
     }
     return SCREE_OK;
 }
@@ -240,7 +251,8 @@ static const scree_stage stage_face = {.name = "pour",
 static scree_sleep_limits sleep(const void *own)
 {
     const config *stage = own;
-    return (scree_sleep_limits){stage->sleep_window, stage->sleep_force, stage->sleep_motion, stage->wake_force};
+    return (scree_sleep_limits){stage->sleep_window, stage->sleep_force, stage->sleep_motion, stage->wake_force,
+                                stage->wake_interval};
 }
 
 static const scree_stage_numbers numbers = {.held = true,

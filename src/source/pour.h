@@ -17,7 +17,7 @@ typedef struct scree_pour_config {
     double patience;         ///< s, that a source may be blocked; NAN: see scree_pour_patience
     int past;                ///< SCREE_PAST_...
     double sleep_window;     ///< s; and the others: of scree_sleep_limits (module/stage.h)
-    double sleep_force, sleep_motion, wake_force;
+    double sleep_force, sleep_motion, wake_force, wake_interval;
 } scree_pour_config;
 
 /// The stage that runs now; NULL: it does not pour.

@@ -49,7 +49,7 @@ typedef struct scree_sleep {
     scree_resting_load wall[SCREE_SURFACES]; ///< in the order of the case
     double wall_torque_unit;                 ///< N m, a power of two
     uint8_t *asleep;                         ///< a body; NULL: no stage yet in which bodies may sleep
-    uint32_t *quiet;                         ///< a body: steps for which it has been quiet; of one that sleeps, out of balance
+    uint32_t *quiet;                         ///< a body: steps for which it has been quiet
     scree_resting *resting;                  ///< a body
     scree_counted *counted;                  ///< a body
     double (*push)[6];    ///< a body: mean resultant of the last window over weight, force and torque over radius
@@ -57,6 +57,7 @@ typedef struct scree_sleep {
     double torque_unit;   ///< N m, the same
     double gravity[3];    ///< m/s2, of the last step
     uint64_t walls;       ///< a bit for each wall of the case that moved in it
+    double woken;         ///< s, time at which all woke
     double overlap;       ///< m, no contact of two that sleep has a larger one
     double taken;         ///< J, kinetic energy of bodies when they fell asleep, less that of those that woke
     uint64_t awake_steps; ///< steps of all bodies that were awake, since the first could sleep

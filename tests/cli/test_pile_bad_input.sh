@@ -106,7 +106,7 @@ changed 's/step: 2e-6 s/step: 1e-3 s/' 'integrator\.step: a step of 0\.001 s is 
 
 # Limits of sleep without sleep are refused, but for the values that they have anyway, which a run writes into its case;
 # where --set drops the window they are dropped with it. Windows shorter than a step are none.
-for limit in 'sleep_force: 0.3' 'sleep_motion: 0.01' 'wake_force: 1'; do
+for limit in 'sleep_force: 0.3' 'sleep_motion: 0.01' 'wake_force: 1' 'wake_interval: 2 s'; do
     changed "s/  - stage: pour/&\n    $limit/" "^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.${limit%%:*}: not used without .sleep_window.: give that, or leave this out"
     same "$(grep -c . <<<"$output")" 1 "one problem, one message: $output"
     changed "s/  - stage: pour/&\n    sleep_window: soon\n    $limit/" "stages\.1\.sleep_window: 'soon'"
@@ -114,9 +114,10 @@ for limit in 'sleep_force: 0.3' 'sleep_motion: 0.01' 'wake_force: 1'; do
     changed "s/  - stage: pour/&\n    sleep_window: 5 ms\n    $limit/" 'pile-point' 0
     expect 0 'pile-point' "$scree" check bad.yaml --set stages.pour.sleep_window=auto
 done
-changed 's/  - stage: pour/&\n    sleep_force: 0.01\n    sleep_motion: 1e-4\n    wake_force: 0.1/' 'pile-point' 0
+changed 's/  - stage: pour/&\n    sleep_force: 0.01\n    sleep_motion: 1e-4\n    wake_force: 0.1\n    wake_interval: 1 s/' 'pile-point' 0
 changed 's/  - stage: pour/&\n    sleep_window: 1e-6 s/' '^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.sleep_window: 1e-06 s is less than a step of this case, 2e-06 s: a particle has to be quiet for many'
 changed 's/  - stage: pour/&\n    sleep_window: 2e-6 s/' 'pile-point' 0
+changed 's/  - stage: pour/&\n    sleep_window: 5 ms\n    wake_interval: 20 ms/' '^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.wake_interval: none would ever sleep: within 0\.02 s all wake for four of .sleep_window., 0\.005 s, and have to be quiet for another: give more than 0\.025 s'
 
 # Without sources the keys of quick that set some of theirs are wrong, and nothing else is near to them.
 sed '/^sources:/,/^$/d' good.yaml >bad.yaml

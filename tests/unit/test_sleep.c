@@ -12,7 +12,7 @@
 #include "state/sleep.h"
 
 #define COUNT_OF(list) (sizeof(list) / sizeof *(list))
-#define SLEEPS         ", sleep_window: 4 ms, sleep_force: 0.5, sleep_motion: 2e-2, wake_force: 2"
+#define SLEEPS         ", sleep_window: 4 ms, sleep_force: 0.5, sleep_motion: 2e-2, wake_force: 2, wake_interval: 0.25 s"
 #define OUT            "measure: {samples: 50, cells: no}\noutput: {figures: no, paraview: no}\n"
 #define STAGES         "stages: [{stage: prepare, method: empty}, {stage: pour" SLEEPS "}]\n"
 
@@ -199,10 +199,13 @@ static watched watch(scree_simulation *s)
 
 /// In mid-pour most sleep between two births, and all are awake when the sources have stopped. Nothing hangs in the air
 /// for longer than from one look to the next. What is taken from those that fall asleep is accumulated: the balance
-/// closes as with all awake, but for springs that were at the friction limit of a dashpot that is forgotten.
+/// closes as with all awake, but for springs that were at the friction limit of a dashpot that is forgotten. That of
+/// spheres has single impacts, of grains that are awake, which cost 2.0e-4 in these steps, and 7.8e-5, 4.4e-5
+/// and 3.1e-5 in halves, quarters and eighths of them.
 static void a_heap_sleeps_wakes_and_keeps_its_balance(void **unused)
 {
     (void)unused;
+    static const double scheme[COUNT_OF(texts)] = {5e-7, 5e-7, 4e-4}; // of steps, in the work
     for (size_t t = 0; t < COUNT_OF(texts); t++) {
         const char *const awake = "stages.pour.sleep_window=auto";
         scree_case *c;
@@ -218,7 +221,7 @@ static void a_heap_sleeps_wakes_and_keeps_its_balance(void **unused)
         close_both(&s, c);
         print_message("at most %zu asleep, %zu times some woke, hangs for %zu steps, residual %.2g, all awake %.2g\n",
                       seen.most, seen.changes, seen.longest, seen.residual, residual);
-        assert_true(seen.residual < fmax(2 * residual, 5e-7));
+        assert_true(seen.residual < fmax(2 * residual, scheme[t]));
     }
 }
 
@@ -291,16 +294,18 @@ static void a_push_wakes_at_its_mean(void **unused)
     close_both(&s, c);
 }
 
-/// Seconds after which a disc that sleeps wakes under a load of `share` of its weight, ten windows if it does not.
-static double wakes_after(double share, double *looks)
+/// Runs with a disc that sleeps, and is pushed to the left by `share` of its weight from 0.5 s on; what it wakes by is
+/// a mean of two weights, and `interval`.
+static scree_simulation open_pushed(double share, const char *interval, scree_case **c)
 {
-    const double weight = 2500 * M_PI * 4e-6 * 9.81, window = 4e-3;
-    char push[300];
+    const double weight = 2500 * M_PI * 4e-6 * 9.81;
+    char push[300], wakes[100];
     (void)snprintf(
         push, sizeof push,
         "loads=[{load: prescribed, selection: one, force_x: [[0 s, 0], [0.5 s, 0], [0.500001 s, %.17g], [2 s, "
         "%.17g]]}]",
         -share * weight, -share * weight);
+    (void)snprintf(wakes, sizeof wakes, "stages.pour.wake_interval=%s", interval);
     const char *const overrides[] = {
         "particles={shape: disc, material: glass, thickness: 1 m, count: 3, distribution: equal, radius: 2 mm}",
         "walls=[{shape: plane, point: [0, 0], normal: [0, 1]}]",
@@ -310,32 +315,52 @@ static double wakes_after(double share, double *looks)
         push,
         "stages=[{stage: prepare, method: bodies, width: 1, height: 1, bodies: [{position: [0, 2 mm]}]}, {stage: pour, "
         "sleep_window: 4 ms, sleep_force: 0.3, sleep_motion: 2e-2, wake_force: 2}]",
+        wakes,
         "sources=[{source: point, place: [0.5, 0.01], interval: 10 s}]"};
-    scree_case *c;
-    scree_simulation s = open_with(discs, overrides, COUNT_OF(overrides), &c);
+    scree_simulation s = open_with(discs, overrides, COUNT_OF(overrides), c);
     step_to(&s, 0.5);
     assert_true(scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0)));
-    while (scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0)) &&
-           scree_state_time(&s.state) < 0.5 + 10 * window)
-        simulation_step(&s);
-    const double since = scree_state_time(&s.state) - 0.5;
-    *looks = 128 * s.state.step_size;
-    close_both(&s, c);
-    return since;
+    return s;
 }
 
-/// Less than `wake_force` is felt, too, when it does not end: the mean passes 0.3 of the weight at -window log(1 - 0.3
-/// / 0.7), and stays there for a window; looks are 128 steps apart.
+/// Less than `wake_force` is felt, too, within `wake_interval`: however small it is, the disc goes.
 static void a_push_that_does_not_end_wakes(void **unused)
 {
     (void)unused;
-    const double window = 4e-3, passes = -window * log(1 - 0.3 / 0.7);
-    double look;
-    const double since = wakes_after(0.7, &look);
-    print_message("woke after %.6g ms\n", 1e3 * since);
-    assert_true(since >= passes + window - look && since <= passes + window + 2 * look);
-    // Less than what is quiet is not.
-    assert_true(wakes_after(0.25, &look) >= 10 * window);
+    static const double shares[] = {0.7, 0.2};
+    for (int k = 0; k < 2; k++) {
+        scree_case *c;
+        scree_simulation s = open_pushed(shares[k], "90 ms", &c); // all wake at 450 ms, and at 540
+        step_to(&s, 0.5399);
+        assert_true(scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0)));
+        step_to(&s, 0.5402);
+        assert_int_equal(asleep(&s), 0);
+        step_to(&s, 0.62);
+        const scree_row *row = &s.state.row[scree_state_row_of(&s.state, 0)];
+        print_message("at %.6g m/s\n", row->vx);
+        assert_true(fabs(row->vx / (-shares[k] * 9.81 * 0.08) - 1) < 0.01);
+        close_both(&s, c);
+        s = open_pushed(shares[k], "10 s", &c);
+        step_to(&s, 0.62);
+        assert_true(scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0)));
+        close_both(&s, c);
+    }
+}
+
+/// When all have woken none falls asleep for four windows; what is quiet does a window later.
+static void all_stay_awake_for_four_windows(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    scree_simulation s = open_pushed(0, "90 ms", &c);
+    const double look = 128 * s.state.step_size, window = 4e-3;
+    step_to(&s, 0.5402);
+    assert_int_equal(asleep(&s), 0);
+    while (asleep(&s) == 0 && scree_state_time(&s.state) < 0.6) simulation_step(&s);
+    const double since = scree_state_time(&s.state) - 0.54;
+    print_message("asleep again %.6g ms later\n", 1e3 * since);
+    assert_true(since >= 5 * window - look && since <= 5 * window + 2 * look + s.state.step_size);
+    close_both(&s, c);
 }
 
 /// A brick that sleeps on a table with little friction, which begins to move: it goes as it does when none sleep.
@@ -519,6 +544,7 @@ int main(void)
         cmocka_unit_test(gravity_wakes),
         cmocka_unit_test(a_push_wakes_at_its_mean),
         cmocka_unit_test(a_push_that_does_not_end_wakes),
+        cmocka_unit_test(all_stay_awake_for_four_windows),
         cmocka_unit_test(a_wall_that_begins_to_move_wakes),
         cmocka_unit_test(a_lost_contact_wakes),
         cmocka_unit_test(a_list_knows_how_far_bodies_had_gone),
