@@ -234,7 +234,7 @@ static scree_status move(const char *directory, const scree_snapshot_mark *from,
 /// m, by which kernels reach out of a cell.
 static double margin_of(const measure_plan *plan, const scree_average_sample *sample)
 {
-    return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius) + 4 * sample->mean_radius;
+    return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius);
 }
 
 /// What cannot be averaged over is a matter of the snapshot.
@@ -272,7 +272,7 @@ static scree_status measure_sample(const char *name, const measure_plan *plan, b
     own.average.fits = !own.element_given;
     if (!own.element_given)
         own.average.grains = sample->counted < SHARE * USUAL ? fmax(1, (double)(sample->counted / SHARE)) : USUAL;
-    // Kernels reach out of a periodic cell as far as they are wide, branches included.
+    // Kernels reach out of a periodic cell as far as they are wide.
     if (own.kernel) status = scree_average_sample_repeat(sample, margin_of(&own, sample), error);
     if (!status && own.kernel && before->own)
         status = scree_average_sample_repeat(before, margin_of(&own, sample), error);

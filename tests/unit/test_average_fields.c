@@ -272,6 +272,38 @@ static void test_plate(void **state)
     scree_average_sample_destroy(&s);
 }
 
+/// A layer on a floor that repeats itself to the sides: images bear the plate no second time, and elements that reach
+/// out of its free surface say so, as in a heap.
+static void test_layer(void **state)
+{
+    (void)state;
+    enum { WIDE = 12, HIGH = 8 };
+    scree_average_sample s = average_begin(2);
+    s.directions = 1;
+    s.gravity[1] = -10;
+    memcpy(s.lattice, (double[9]){WIDE, 0, 0, 0, 1, 0, 0, 0, 1}, sizeof s.lattice);
+    for (uint32_t k = 0; k < WIDE * HIGH; k++) {
+        const uint32_t grain = average_add(&s, k % WIDE + 0.5, k / WIDE + 0.5, 0, 0.5);
+        const double above[3] = {0, 10 * s.grain[grain].mass * (HIGH - (double)(k / WIDE)), 0};
+        if (k < WIDE)
+            average_stand(&s, grain, (double[3]){s.grain[grain].position[0], 0, 0}, above);
+        else
+            average_touch(&s, grain, k - WIDE, above);
+    }
+    average_finish(&s);
+    double averages, weight;
+    scree_average_view view = open_view(&s, &(scree_average_plan){.side = 3});
+    scree_average_plate_force(&view, &averages, &weight);
+    near(averages, weight, 1e-12 * weight);
+    // Columns of a quarter of a diameter cut tops by 0.1 of a radius at most.
+    for (int over = 0; over < 3; over++) {
+        const scree_average_element element = {{10, 5 + over, 0}, {13, 8 + over, 0}};
+        near(told(&view, &element, SCREE_AVERAGE_DENSITY, "inside"), 1 - over / 3.0, 0.1 / 3);
+    }
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
 /// R 2.42 with the sign of 2.43, d sigma_il / d x_l = rho g_i with compression positive: the pressure of a column under
 /// its weight falls upwards, by the weight of a layer in each layer (R 2.42 would have it grow).
 static void test_sign_of_equilibrium(void **state)
@@ -347,6 +379,7 @@ int main(void)
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_surface_of_polygons),
         cmocka_unit_test(test_plate),
+        cmocka_unit_test(test_layer),
         cmocka_unit_test(test_sign_of_equilibrium),
         cmocka_unit_test(test_bad_samples),
         cmocka_unit_test(test_principal),
