@@ -5,7 +5,6 @@
 #include "average/force_statistics.h"
 #include "average/increment.h"
 #include "average/profile.h"
-#include "base/matrix.h"
 #include "io/snapshot_when.h"
 
 #include <math.h>
@@ -94,14 +93,6 @@ static void tell_triangle(const scree_average_view *view, scree_average_table *v
     scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
 }
 
-/// Of the whole sample [m2, m3]: a cell that repeats itself in all directions, else what lies within its surface.
-static double whole_volume(const scree_average_view *view)
-{
-    const scree_average_sample *sample = view->sample;
-    const bool whole = sample->directions == (1U << sample->dimension) - 1;
-    return whole ? fabs(scree_matrix_determinant(sample->lattice)) : view->surface.volume;
-}
-
 /// Mean coordination and the like, of the whole sample.
 static void tell_whole(const scree_average_view *view, scree_average_table *values)
 {
@@ -118,7 +109,7 @@ static void tell_whole(const scree_average_view *view, scree_average_table *valu
     scree_average_table_take(values, "grains", "1", (double)sample->counted);
     scree_average_table_take(values, "contacts", "1", (double)sample->contacts);
     scree_average_table_take(values, "coordination", "1", contacts / (double)sample->counted);
-    scree_average_table_take(values, "volume_fraction", "1", sample->solid / whole_volume(view));
+    scree_average_table_take(values, "volume_fraction", "1", sample->solid / view->surface.volume);
     scree_average_table_take(values, "fabric_factor", "1", weighted / solid / (contacts / (double)sample->counted));
     scree_average_table_take(values, "unbalanced_ratio", "1", sample->unbalanced_ratio);
     scree_average_table_take(values, "element_side", "m", view->frame.side);

@@ -3,6 +3,7 @@
 
 #include "average/cuts.h"
 #include "average/tensor.h"
+#include "base/matrix.h"
 
 static scree_average_view open_view(scree_average_sample *s, const scree_average_plan *plan)
 {
@@ -304,6 +305,32 @@ static void test_layer(void **state)
     scree_average_sample_destroy(&s);
 }
 
+/// A cell that leans both ways has less room than the box along the axes: an element that shall hold 16 of its 64
+/// grains is a quarter of the cell, and the bulk density is that of the cell.
+static void test_room_of_a_cell(void **state)
+{
+    (void)state;
+    enum { N = 8 };
+    scree_average_sample s = average_begin(2);
+    const double lattice[9] = {N, 0.4 * N, 0, 0.3 * N, N, 0, 0, 0, 1}, room = (1 - 0.3 * 0.4) * N * N;
+    s.directions = 3;
+    memcpy(s.lattice, lattice, sizeof lattice);
+    for (uint32_t k = 0; k < N * N; k++) {
+        const double at[3] = {(double)(k % N) / N, (double)(k / N) / N, 0};
+        double x[3];
+        scree_matrix_apply(lattice, at, x);
+        (void)average_add(&s, x[0], x[1], 0, 0.4);
+    }
+    average_touch(&s, 0, 1, (double[3]){1, 0, 0});
+    average_finish(&s);
+    scree_average_view view = open_view(&s, &(scree_average_plan){.grains = 16});
+    near(view.frame.side * view.frame.side, 0.25 * room, 1e-12 * room);
+    near(view.grains, 16, 1e-12);
+    near(view.bulk_density, s.mass / (room * s.thickness), 1e-9 * view.bulk_density);
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
 /// R 2.42 with the sign of 2.43, d sigma_il / d x_l = rho g_i with compression positive: the pressure of a column under
 /// its weight falls upwards, by the weight of a layer in each layer (R 2.42 would have it grow).
 static void test_sign_of_equilibrium(void **state)
@@ -385,6 +412,7 @@ int main(void)
         cmocka_unit_test(test_surface_of_polygons),
         cmocka_unit_test(test_plate),
         cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_room_of_a_cell),
         cmocka_unit_test(test_sign_of_equilibrium),
         cmocka_unit_test(test_bad_samples),
         cmocka_unit_test(test_principal),
