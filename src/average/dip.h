@@ -10,7 +10,9 @@
 ///              that of resamples of whole piles, of which all copies of one are left out together
 ///     p        of no dip: share of the changes of sign of the differences m_i(j_i) - m_i(0) whose sum is at least as
 ///              large (R. A. Fisher's randomisation test; all of them up to 12 piles, else 20000 drawn ones): the least
-///              it can be is 1 over their number
+///              it can be is 1 over their number. Differences are not quite independent, since each pile has a part in
+///              where the others are looked at: of flat noisy profiles 3 to 9 % of ensembles of 5 to 8 piles and 5 to
+///              11 % of those of 12 to 20 have p <= 0.05, the more the less places are correlated; under a dome none
 /// One pile has no interval and no p: NAN.
 #ifndef SCREE_AVERAGE_DIP_H
 #define SCREE_AVERAGE_DIP_H

@@ -59,8 +59,8 @@ static void test_dip_there(void **state)
     assert_true(dip.checked_low > 0.1 && dip.checked_low <= dip.checked && dip.checked <= dip.checked_high);
 }
 
-/// Without one p is spread as it should be: below 0.05 in at most one of 20 ensembles or so. With a dome no noise of
-/// this size moves the largest place far, and with a plateau looking for the largest one does not fool the test.
+/// Without one p is spread nearly as it should be: below 0.05 in 8 of 100 ensembles of 8 flat profiles (of 2000 with 41
+/// places 162). Looking for the largest place fools the test by that much and no more.
 static void test_dip_absent(void **state)
 {
     (void)state;
@@ -76,7 +76,7 @@ static void test_dip_absent(void **state)
         naive += dip.dip / 100;
         checked += dip.checked / 100;
     }
-    // 100 trials at 5 %: more than 12 of them have a probability of 0.2 %. p <= 0.05 is 12 of 256 flips.
+    // 100 trials at 8 %: more than 12 of them have a probability of 6 %. p <= 0.05 is 12 of 256 flips.
     assert_true(small <= 12);
     // The definition finds a dip in noise, the check none.
     assert_true(naive > 0.03);
@@ -205,7 +205,9 @@ static void test_coverage(void **state)
 
 // ---- forces ------------------------------------------------------------------------------------------------------
 
-/// Exponential forces: the rate above the mean is 1, and the interval covers it in 95 % of 200 sets.
+/// Exponential forces: the rate above the mean is 1, and the interval covers it in 98.7 % of sets: the mean that is
+/// estimated with it leaves e - 1 of the variance e / N that chi square has, and 1.96 (e / (e - 1))^(1/2) deviations
+/// are 98.6 %.
 static void test_decay(void **state)
 {
     (void)state;
@@ -222,7 +224,7 @@ static void test_decay(void **state)
         near(decay.low / decay.rate, 1 - 1.96 / sqrt(k), 2 / k);
         near(decay.high / decay.rate, 1 + 1.96 / sqrt(k), 2 / k);
     }
-    assert_true(covered >= 178 && covered <= 200); // 190, 4 sigma
+    assert_true(covered >= 191 && covered <= 200); // 197.3, 4 sigma of 1.6
     const double few[3] = {1, 1, 4};
     assert_true(isnan(scree_average_decay_fit(few, 3).rate));
 }
