@@ -85,6 +85,34 @@ static void test_dip_absent(void **state)
     assert_true(covered >= 90);
 }
 
+/// What one pile does not know at a place is not 0 there, on its axis least of all: places that all know decide.
+static void test_dip_of_some(void **state)
+{
+    (void)state;
+    enum { PILES = 6 };
+    double profile[PILES * POINTS], more[(PILES + 1) * POINTS];
+    make_profiles(profile, PILES, 0.3, 0.1, 4);
+    const scree_average_dip whole = dip_of(profile, PILES);
+    // A pile of which nothing is known is none.
+    memcpy(more, profile, sizeof profile);
+    for (size_t j = 0; j < POINTS; j++) more[PILES * POINTS + j] = NAN;
+    const scree_average_dip same = dip_of(more, PILES + 1);
+    near(same.dip, whole.dip, 0);
+    near(same.p, whole.p, 0);
+    near(same.low, whole.low, 0);
+    near(same.centre, whole.centre, 0);
+    // The largest place is left out where one pile has no left side there.
+    const size_t most = POINTS / 2 - (size_t)(whole.place * (POINTS / 2) + 0.5);
+    profile[2 * POINTS + most] = NAN;
+    const scree_average_dip rest = dip_of(profile, PILES);
+    assert_true(rest.place != whole.place && rest.dip < whole.dip && rest.most < whole.most);
+    near(rest.centre, whole.centre, 0);
+    // Without one of its axes nothing is known.
+    profile[2 * POINTS + POINTS / 2] = NAN;
+    const scree_average_dip none = dip_of(profile, PILES);
+    assert_true(isnan(none.dip) && isnan(none.p) && isnan(none.low) && isnan(none.checked));
+}
+
 // ---- tables ------------------------------------------------------------------------------------------------------
 
 static void fill(scree_average_table *table, double a, double angle)
@@ -429,13 +457,13 @@ static void test_minimum_of_ensembles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_minimum_exact),  cmocka_unit_test(test_minimum_of_ensembles),
-        cmocka_unit_test(test_dip_exact),      cmocka_unit_test(test_dip_there),
-        cmocka_unit_test(test_dip_absent),     cmocka_unit_test(test_means_of_few),
-        cmocka_unit_test(test_elevations),     cmocka_unit_test(test_means),
-        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_decay),
-        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_shares),
-        cmocka_unit_test(test_chains),
+        cmocka_unit_test(test_minimum_exact), cmocka_unit_test(test_minimum_of_ensembles),
+        cmocka_unit_test(test_dip_exact),     cmocka_unit_test(test_dip_there),
+        cmocka_unit_test(test_dip_absent),    cmocka_unit_test(test_dip_of_some),
+        cmocka_unit_test(test_means_of_few),  cmocka_unit_test(test_elevations),
+        cmocka_unit_test(test_means),         cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_decay),         cmocka_unit_test(test_lattice_forces),
+        cmocka_unit_test(test_shares),        cmocka_unit_test(test_chains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
