@@ -83,6 +83,16 @@ static scree_status check_side(const scree_average_view *view, scree_error *erro
         view->frame.side, view->grains, width, view->frame.height, view->sample->counted);
 }
 
+/// How far [m] elements reach out of the box of the sample along directions in which it repeats itself: half a side,
+/// those beside them of the difference quotient a whole one more, and as far as a frame of another instant is larger.
+static double reach_of(const scree_average_view *view)
+{
+    double beyond = 0;
+    for (int k = 0; k < view->sample->dimension; k++)
+        if (scree_average_repeats(view->sample, k)) beyond = fmax(beyond, view->frame.high[k] - view->sample->high[k]);
+    return beyond + (view->moved ? 1.5 : 0.5) * view->frame.side;
+}
+
 scree_status scree_average_view_open(scree_average_sample *sample, const scree_average_plan *plan,
                                      scree_average_view *view, scree_error *error)
 {
@@ -92,11 +102,11 @@ scree_status scree_average_view_open(scree_average_sample *sample, const scree_a
         place(sample, plan, view);
         status = check_side(view, error);
     }
-    if (!status) status = scree_average_sample_repeat(sample, view->frame.side, error); // unless it has its images
+    for (size_t p = 0; p < sample->bodies; p++) view->moved = view->moved || sample->grain[p].moved;
+    if (!status) status = scree_average_sample_repeat(sample, reach_of(view), error);
     if (!status)
         status =
             scree_average_bins_make(sample, fmax(2 * sample->mean_radius, view->frame.side / 4), &view->bins, error);
-    for (size_t p = 0; p < sample->bodies; p++) view->moved = view->moved || sample->grain[p].moved;
     if (!status && view->moved) status = scree_average_strain_open(sample, &view->bins, &view->strain, error);
     if (status) scree_average_view_close(view);
     return status;
@@ -275,8 +285,9 @@ void scree_average_plate_force(const scree_average_view *view, double *averages,
     scree_average_element row;
     scree_average_value value;
     for (int k = 0; k < 3; k++) {
-        row.low[k] = sample->low[k] - view->frame.side;
-        row.high[k] = sample->high[k] + view->frame.side;
+        const double beyond = scree_average_repeats(sample, k) ? 0 : view->frame.side; // images are the same grains
+        row.low[k] = sample->low[k] - beyond;
+        row.high[k] = sample->high[k] + beyond;
     }
     row.low[up] = view->frame.base;
     row.high[up] = view->frame.base + view->frame.side;

@@ -105,15 +105,27 @@ static void resample(const double *halves, size_t piles, size_t count, double *s
     dip->high = scree_average_quantile(draw, SCREE_AVERAGE_BOOTSTRAP, 1 - scree_average_tail(piles));
 }
 
-/// The mean of each pile and its mirror image, from the axis outwards.
-static void fold(const double *profile, size_t piles, size_t points, double *halves)
+/// The mean of each pile and its mirror image, from the axis outwards; -INFINITY, which is never the largest, where
+/// some pile has none. Returns how many piles have any number.
+static size_t fold(const double *profile, size_t piles, size_t points, double *halves)
 {
     const size_t middle = points / 2, count = middle + 1;
-    for (size_t i = 0; i < piles; i++)
+    size_t kept = 0;
+    for (size_t i = 0; i < piles; i++) {
+        bool any = false;
         for (size_t j = 0; j < count; j++) {
             const double left = profile[i * points + middle - j], right = profile[i * points + middle + j];
-            halves[i * count + j] = 0.5 * ((isfinite(left) ? left : 0) + (isfinite(right) ? right : 0));
+            halves[kept * count + j] = 0.5 * (left + right);
+            any = any || isfinite(left + right);
         }
+        kept += any;
+    }
+    for (size_t j = 0; j < count; j++) {
+        bool all = true;
+        for (size_t i = 0; i < kept; i++) all = all && isfinite(halves[i * count + j]);
+        for (size_t i = 0; i < kept && !all; i++) halves[i * count + j] = -INFINITY;
+    }
+    return kept;
 }
 
 scree_status scree_average_dip_find(const double *profile, size_t piles, size_t points, scree_average_dip *dip,
@@ -121,13 +133,17 @@ scree_status scree_average_dip_find(const double *profile, size_t piles, size_t 
 {
     const size_t count = points / 2 + 1;
     double *halves = NULL, *sum = NULL, *difference = NULL, *draw = NULL;
+    bool known = false;
     *dip = (scree_average_dip){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     scree_status status = scree_allocate(&halves, piles * count, sizeof *halves, error);
     if (!status) status = scree_allocate(&sum, count, sizeof *sum, error);
     if (!status) status = scree_allocate(&difference, piles, sizeof *difference, error);
     if (!status) status = scree_allocate(&draw, SCREE_AVERAGE_BOOTSTRAP, sizeof *draw, error);
     if (!status) {
-        fold(profile, piles, points, halves);
+        piles = fold(profile, piles, points, halves);
+        known = piles > 0 && isfinite(halves[0]);
+    }
+    if (known) {
         add_up(halves, piles, count, SIZE_MAX, SIZE_MAX, sum);
         const size_t most = find_most(sum, count);
         dip->dip = dip_of(sum, count);

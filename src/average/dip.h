@@ -10,8 +10,12 @@
 ///              that of resamples of whole piles, of which all copies of one are left out together
 ///     p        of no dip: share of the changes of sign of the differences m_i(j_i) - m_i(0) whose sum is at least as
 ///              large (R. A. Fisher's randomisation test; all of them up to 12 piles, else 20000 drawn ones): the least
-///              it can be is 1 over their number
-/// One pile has no interval and no p: NAN.
+///              it can be is 1 over their number. Differences are not quite independent, since each pile has a part in
+///              where the others are looked at: of flat noisy profiles 3 to 9 % of ensembles of 5 to 8 piles and 5 to
+///              11 % of those of 12 to 20 have p <= 0.05, the more the less places are correlated; under a dome none
+/// One pile has no interval and no p: NAN. A place that some pile has no number of, on one of its sides, is left out of
+/// all, since a mean over some piles is not that of the others; on the axis nothing is known then. A pile without any
+/// number is none.
 #ifndef SCREE_AVERAGE_DIP_H
 #define SCREE_AVERAGE_DIP_H
 
@@ -27,7 +31,7 @@ typedef struct scree_average_dip {
     double checked_low, checked_high;
 } scree_average_dip;
 
-/// profile: piles x points, points odd. Numbers that are none are no pressure. Errors: memory.
+/// profile: piles x points, points odd; NAN: no number. Errors: memory.
 scree_status scree_average_dip_find(const double *profile, size_t piles, size_t points, scree_average_dip *dip,
                                     scree_error *error) SCREE_MUST_USE;
 

@@ -1,8 +1,9 @@
 /// Elastic constants of an ensemble: those of its mean fields.
 ///
 /// A constant is a quotient; where the strain of one sample is near zero it is wild, and a mean of quotients with it.
-/// So in tables of an ensemble the constants are those of the mean change of stress and the mean strain of the samples,
-/// and their bands those of the resamples of whole samples (average/table.h). Cost: resamples x samples a row.
+/// So in tables of an ensemble the constants are those of the mean change of stress and the mean strain of the samples
+/// that have both, and their bands those of the resamples of whole samples (average/table.h). Cost: resamples x samples
+/// a row.
 #ifndef SCREE_AVERAGE_ELASTIC_ENSEMBLE_H
 #define SCREE_AVERAGE_ELASTIC_ENSEMBLE_H
 

@@ -55,7 +55,7 @@ void scree_average_measure(const scree_average_sample *sample, const scree_avera
 {
     measuring m = {sample, element, value};
     *value = (scree_average_value){.volume = scree_average_element_volume(element, sample->dimension),
-                                   .inside = sample->directions ? 1 : scree_average_surface_part(surface, element)};
+                                   .inside = scree_average_surface_part(surface, element)};
     scree_average_bins_visit(bins, element, visit, &m);
 }
 

@@ -380,12 +380,14 @@ static double direction(const finding *f, region where, const char *name)
     return x == 0 && y == 0 ? NAN : 0.5 * atan2(y, x) * 180 / M_PI;
 }
 
-/// Mean angle between two axes along the lowest cut [degree].
-static double between(const finding *f, const char *first, const char *second)
+/// Mean angle between two axes along the lowest cut [degree]: in the plane by their angles, in space by tensors.
+static double between(const finding *f, const char *const angle[2], const char *const tensor[2], double sign)
 {
     double sum = 0, count = 0;
     for (size_t row = 0; row < f->cuts->rows; row++) {
-        const double apart = fabs(get(f->cuts, row, first) - get(f->cuts, row, second));
+        const double apart = f->after->dimension == 3
+                                 ? scree_average_axes_apart(f->cuts, row, tensor[0], sign, tensor[1])
+                                 : fabs(get(f->cuts, row, angle[0]) - get(f->cuts, row, angle[1]));
         if (!is_of(f->cuts, row, LOWEST) || !isfinite(apart)) continue;
         sum += fmin(apart, 180 - apart);
         count++;
@@ -409,8 +411,9 @@ static void find_fabric(finding *f)
     give(f, median(f, FLANK_OF, "fabric_anisotropy"));
     give(f, direction(f, LEFT, "fabric_angle"));
     give(f, direction(f, RIGHT, "fabric_angle"));
-    give(f, between(f, "fabric_angle", "pressure_angle"));
-    give(f, between(f, "strain_angle", "stress_change_angle"));
+    give(f, between(f, (const char *[]){"pressure_angle", "fabric_angle"}, (const char *[]){"stress", "fabric"}, -1));
+    give(f, between(f, (const char *[]){"strain_angle", "stress_change_angle"},
+                    (const char *[]){"cundall", "stress_change"}, 1));
     give(f, f->grains);
 }
 

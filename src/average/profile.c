@@ -1,6 +1,8 @@
 /// Numbers of cuts, and mirror images.
 #include "average/profile.h"
 
+#include "average/relation.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -84,12 +86,26 @@ static double tilt(const reading *r, const char *first, size_t second)
     return n > 0 ? sum / n : NAN;
 }
 
+/// The same between the axis of the largest pressure and that of a tensor in space.
+static double tilt_in_space(const reading *r, const char *tensor)
+{
+    double sum = 0, n = 0;
+    for (size_t row = 0; row < r->points; row++) {
+        const double apart = scree_average_axes_apart(r->cuts, row, "stress", -1, tensor);
+        if (!isfinite(apart) || scree_average_table_get(r->cuts, row, r->inside) < LEAST_INSIDE) continue;
+        sum += apart;
+        n++;
+    }
+    return n > 0 ? sum / n : NAN;
+}
+
 static void tell_axes(const reading *r, scree_average_sink *sink, void *user)
 {
     const size_t order = scree_average_table_find(r->cuts, "axes_order");
-    static const char *const beside[][2] = {{"pressure_fabric_tilt", "fabric_angle"},
-                                            {"pressure_normals_tilt", "normals_angle"},
-                                            {"pressure_axes_tilt", "axes_angle"}};
+    static const char *const beside[][3] = {{"pressure_fabric_tilt", "fabric_angle", "fabric"},
+                                            {"pressure_normals_tilt", "normals_angle", "normals"},
+                                            {"pressure_axes_tilt", "axes_angle", "axes"}};
+    const bool in_space = scree_average_table_find(r->cuts, "z") != SIZE_MAX;
     const bool pressed = scree_average_table_find(r->cuts, "pressure_angle") != SIZE_MAX;
     if (order != SIZE_MAX) {
         sink(user, "long_axis_tilt", "degree", tilt(r, "long_axis_angle", SIZE_MAX));
@@ -98,7 +114,9 @@ static void tell_axes(const reading *r, scree_average_sink *sink, void *user)
     }
     for (size_t k = 0; k < sizeof beside / sizeof *beside && pressed; k++) {
         const size_t column = scree_average_table_find(r->cuts, beside[k][1]);
-        if (column != SIZE_MAX) sink(user, beside[k][0], "degree", tilt(r, "pressure_angle", column));
+        if (column == SIZE_MAX) continue;
+        sink(user, beside[k][0], "degree",
+             in_space ? tilt_in_space(r, beside[k][2]) : tilt(r, "pressure_angle", column));
     }
 }
 

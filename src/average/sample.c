@@ -79,6 +79,7 @@ scree_status scree_average_sample_of_state(const scree_model *model, const scree
                                      .corner_count = polygons && polygons->of ? polygons->count : 0};
     memcpy(sample->gravity, model->gravity, sizeof sample->gravity);
     memcpy(sample->lattice, scree_cell(state)->lattice, sizeof sample->lattice);
+    memcpy(sample->reference, scree_cell(state)->reference, sizeof sample->reference);
     scree_status status = scree_allocate(&sample->grain, state->count, sizeof *sample->grain, error);
     if (!status) status = scree_allocate(&sample->contact, table->count, sizeof *sample->contact, error);
     if (!status) status = scree_allocate(&sample->corner, sample->corner_count, sizeof *sample->corner, error);

@@ -64,6 +64,7 @@ typedef struct scree_average_sample {
     char stage[32];
     uint64_t directions; ///< in which it repeats itself: bits 0, 1, 2
     double lattice[9];   ///< m, lattice vectors as columns
+    double reference[9]; ///< m, the same vectors when the loading began; zero: unknown
     scree_average_grain *grain;
     size_t count;
     size_t bodies; ///< of them; those behind are images
@@ -76,6 +77,7 @@ typedef struct scree_average_sample {
 
     // ---- found by scree_average_sample_finish ----
     scree_average_own *own;   ///< a grain
+    double margin;            ///< m, about the box within which there are images
     double lattice_change[9]; ///< m, of the lattice since an earlier instant
     double (*earlier)[9];     ///< N m, moments of the grains at an earlier instant (average/strain.h); NULL: unknown
     double (*turn)[4];        ///< quaternion of what each body has turned by since then; NULL: unknown
@@ -105,8 +107,9 @@ scree_status scree_average_sample_finish(scree_average_sample *sample, scree_err
 /// The same of a sample whose grains need not touch, for fields that contacts have no part in.
 scree_status scree_average_sample_finish_loose(scree_average_sample *sample, scree_error *error) SCREE_MUST_USE;
 
-/// Adds the images of a finished sample that repeats itself: of all bodies within `margin` [m] of a face of its cell,
-/// and of their contacts. Nothing happens to others. Errors: memory.
+/// Adds the images of a finished sample that repeats itself: of all bodies within `margin` [m] of the box from `low` to
+/// `high` in which elements and points have their centres, which a cell that leans does not fill, and of their contacts.
+/// Where there are images within less, they are found anew. Nothing happens to others. Errors: memory.
 scree_status scree_average_sample_repeat(scree_average_sample *sample, double margin,
                                          scree_error *error) SCREE_MUST_USE;
 void scree_average_sample_destroy(scree_average_sample *sample);

@@ -17,10 +17,50 @@ static void whole_steps(uint64_t directions, const double inverse[9], const doub
     for (int k = 0; k < 3; k++) steps[k] = directions >> k & 1 ? round(steps[k]) : 0;
 }
 
+/// Whole numbers `steps` with a = b steps, to round-off; false: there are none.
+static bool find_whole(const double a[9], const double b[9], double steps[9])
+{
+    double inverse[9];
+    scree_matrix_invert(b, inverse);
+    scree_matrix_multiply(inverse, a, steps);
+    for (int k = 0; k < 9; k++) {
+        const double whole = rint(steps[k]);
+        if (!(fabs(steps[k] - whole) < 1e-6)) return false;
+        steps[k] = whole;
+    }
+    return fabs(fabs(scree_matrix_determinant(steps)) - 1) < 0.5;
+}
+
+/// Whole numbers with which b steps leans over its own vectors as a does, whatever their lengths are.
+static void find_nearest(const double a[9], const double b[9], double steps[9])
+{
+    double inverse[9], change[9];
+    scree_matrix_invert(b, inverse);
+    scree_matrix_multiply(inverse, a, change);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) steps[3 * i + j] = i == j ? 1 : rint(change[3 * i + j] / change[4 * i]);
+    if (fabs(scree_matrix_determinant(steps) - 1) > 0.5) scree_matrix_unit(steps);
+}
+
+/// The earlier lattice by the vectors that the lattice has now: whole multiples of a vector may have been taken from
+/// another in between (boundary/periodic.c), from the reference as well. Of both in one loading, and of an earlier
+/// lattice with which it began, that says by how many. Else the vectors count that lean least from where they were.
+static void find_earlier_lattice(const scree_average_sample *sample, const scree_average_sample *before,
+                                 double lattice[9])
+{
+    double steps[9];
+    const bool known = scree_matrix_norm(sample->reference) > 0;
+    const bool both = known && scree_matrix_norm(before->reference) > 0;
+    if (!(both && find_whole(sample->reference, before->reference, steps)))
+        find_nearest(known ? sample->reference : sample->lattice, before->lattice, steps);
+    scree_matrix_multiply(before->lattice, steps, lattice);
+}
+
 /// What a grain has moved by. Where the sample repeats itself its image then is taken from which it came with the least
-/// way relative to the lattice: bodies leave a cell on one side and come back on the other.
-static void find_displacement(const scree_average_sample *sample, const scree_average_sample *before,
-                              double inverse[2][9], const scree_average_grain *was, scree_average_grain *grain)
+/// way relative to the lattice: bodies leave a cell on one side and come back on the other. earlier: lattice then, by
+/// the vectors of now.
+static void find_displacement(const scree_average_sample *sample, const double earlier[9], double inverse[2][9],
+                              const scree_average_grain *was, scree_average_grain *grain)
 {
     double then[3], now[3], steps[3], shift[3];
     scree_subtract(grain->position, was->position, grain->displacement);
@@ -28,7 +68,7 @@ static void find_displacement(const scree_average_sample *sample, const scree_av
     scree_matrix_apply(inverse[0], was->position, then);
     scree_matrix_apply(inverse[1], grain->position, now);
     for (int k = 0; k < 3; k++) steps[k] = sample->directions >> k & 1 ? round(then[k] - now[k]) : 0;
-    scree_matrix_apply(before->lattice, steps, shift);
+    scree_matrix_apply(earlier, steps, shift);
     scree_along(grain->displacement, 1, shift, grain->displacement);
 }
 
@@ -77,13 +117,14 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
 {
     size_t at = 0, moved = 0;
     bool anew;
-    double inverse[2][9];
+    double inverse[2][9], earlier[9];
     if (sample->directions != before->directions)
         return scree_error_set(error, SCREE_ERROR_INPUT, "one of both snapshots repeats itself in other directions");
     if (sample->directions) {
-        scree_matrix_invert(before->lattice, inverse[0]);
+        find_earlier_lattice(sample, before, earlier);
+        scree_matrix_invert(earlier, inverse[0]);
         scree_matrix_invert(sample->lattice, inverse[1]);
-        for (int k = 0; k < 9; k++) sample->lattice_change[k] = sample->lattice[k] - before->lattice[k];
+        for (int k = 0; k < 9; k++) sample->lattice_change[k] = sample->lattice[k] - earlier[k];
     }
     if (before->own) {
         scree_status status = scree_allocate(&sample->earlier, sample->bodies, sizeof *sample->earlier, error);
@@ -98,7 +139,7 @@ scree_status scree_average_move(scree_average_sample *sample, const scree_averag
         scree_average_grain *grain = &sample->grain[p];
         while (at < before->bodies && before->grain[at].id < grain->id) at++;
         if (at == before->bodies || before->grain[at].id != grain->id) continue;
-        find_displacement(sample, before, inverse, &before->grain[at], grain);
+        find_displacement(sample, earlier, inverse, &before->grain[at], grain);
         if (sample->turn) find_turn(sample, before, anew, at, p);
         grain->moved = true;
         if (before->own) memcpy(sample->earlier[p], before->own[at].moment, sizeof before->own[at].moment);

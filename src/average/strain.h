@@ -22,7 +22,10 @@
 /// known: spheres without `measure.orientation`, and round grains whose rotations were set to zero between the two
 /// instants, as the begin of a loading does (`turned_since`), but not where it did so at the first of them. A sample
 /// that repeats itself takes each grain with the image that it came from: with x = H s, H the lattice, u = x - x_0 +
-/// H_0 round(s_0 - s), and images H n away have moved by (H - H_0) n more.
+/// H_0 round(s_0 - s), and images H n away have moved by (H - H_0) n more. H_0 is the earlier lattice by the vectors of
+/// H: a cell in shear changes them as it leans (boundary/periodic.c), which the lattices at the begin of the loading
+/// tell, over any strain. Between two loadings, and where no such lattice is known, a cell must not lean over by half a
+/// vector more. A grain that has moved by half a cell relative to the lattice is taken for its image.
 #ifndef SCREE_AVERAGE_STRAIN_H
 #define SCREE_AVERAGE_STRAIN_H
 

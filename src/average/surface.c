@@ -1,6 +1,7 @@
 /// Surfaces of samples by columns.
 #include "average/surface.h"
 
+#include "base/matrix.h"
 #include "shape/outline_extent.h"
 
 #include <math.h>
@@ -186,8 +187,13 @@ static void open_columns(const scree_average_sample *sample, scree_average_surfa
     for (size_t k = 0; k < s->columns[0] * s->columns[1]; k++) s->bottom[k] = -INFINITY, s->top[k] = INFINITY;
 }
 
-static void find_volume(scree_average_surface *s)
+/// Of the columns; a cell that repeats itself in all directions has its own, which is less where it leans both ways.
+static void find_volume(const scree_average_sample *sample, scree_average_surface *s)
 {
+    if (sample->directions == (1U << s->dimension) - 1) {
+        s->volume = fabs(scree_matrix_determinant(sample->lattice));
+        return;
+    }
     for (size_t k = 0; k < s->columns[0] * s->columns[1]; k++) {
         if (isnan(s->top[k])) continue;
         const double height = isinf(s->top[k]) ? s->highest - s->base : s->top[k] - s->bottom[k];
@@ -228,7 +234,7 @@ scree_status scree_average_surface_find(const scree_average_sample *sample, scre
     if (!status) {
         find_ends(sample, s);
         open_columns(sample, s);
-        find_volume(s);
+        find_volume(sample, s);
     }
     if (status) scree_average_surface_destroy(s);
     return status;

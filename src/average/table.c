@@ -103,12 +103,13 @@ static scree_status make_like(const scree_average_table *form, scree_average_tab
     return status;
 }
 
-/// An angle of an axis [degree], for which 180 degrees are none: its mean is that of the doubled angles.
+/// An angle of an axis in the plane [degree], for which 180 degrees are none: its mean is that of the doubled angles.
+/// Those of a table in space, which has places along z, are elevations from 0 to 90: numbers like others.
 static bool is_axis(const scree_average_table *table, size_t at)
 {
     const char *name = table->column[at % table->columns].name;
     const size_t length = strlen(name);
-    return length > 6 && strcmp(name + length - 6, "_angle") == 0;
+    return length > 6 && strcmp(name + length - 6, "_angle") == 0 && scree_average_table_find(table, "z") == SIZE_MAX;
 }
 
 static double mean_axis(const scree_average_table *table, size_t count, size_t at, const uint32_t *drawn)
@@ -124,10 +125,10 @@ static double mean_axis(const scree_average_table *table, size_t count, size_t a
 }
 
 /// Mean of the finite ones of value `at` of the tables; of those that were drawn, NULL: of each once.
-static double mean_of(const scree_average_table *table, size_t count, size_t at, const uint32_t *drawn)
+static double mean_of(const scree_average_table *table, size_t count, size_t at, bool axis, const uint32_t *drawn)
 {
     double sum = 0, number = 0;
-    if (is_axis(table, at)) return mean_axis(table, count, at, drawn);
+    if (axis) return mean_axis(table, count, at, drawn);
     for (size_t k = 0; k < count; k++) {
         const double value = table[drawn ? drawn[k] : k].value[at];
         if (!isfinite(value)) continue;
@@ -138,14 +139,21 @@ static double mean_of(const scree_average_table *table, size_t count, size_t at,
 }
 
 /// Means of the samples that were drawn; of axes within a right angle of their mean.
-static void resample(const scree_average_table *table, size_t count, size_t at, const uint32_t *drawn, double mean,
-                     double *draws)
+static void resample(const scree_average_table *table, size_t count, size_t at, bool axis, const uint32_t *drawn,
+                     double mean, double *draws)
 {
-    const bool axis = is_axis(table, at);
     for (size_t b = 0; b < SCREE_AVERAGE_BOOTSTRAP; b++) {
-        draws[b] = mean_of(table, count, at, drawn + b * count);
+        draws[b] = mean_of(table, count, at, axis, drawn + b * count);
         if (axis) draws[b] = mean + remainder(draws[b] - mean, 180);
     }
+}
+
+/// So many samples have a finite value `at`.
+static size_t count_finite(const scree_average_table *table, size_t count, size_t at)
+{
+    size_t finite = 0;
+    for (size_t k = 0; k < count; k++) finite += isfinite(table[k].value[at]) != 0;
+    return finite;
 }
 
 scree_status scree_average_table_mean(const scree_average_table *table, size_t count, scree_average_table *mean,
@@ -153,7 +161,6 @@ scree_status scree_average_table_mean(const scree_average_table *table, size_t c
 {
     double *draws = NULL;
     uint32_t *drawn = NULL;
-    const double tail = scree_average_tail(count);
     *mean = (scree_average_table){0};
     if (low) *low = *high = (scree_average_table){0};
     for (size_t k = 1; k < count; k++)
@@ -168,10 +175,13 @@ scree_status scree_average_table_mean(const scree_average_table *table, size_t c
     if (!status && low) status = make_like(table, low, error);
     if (!status && low) status = make_like(table, high, error);
     for (size_t at = 0; at < table->rows * table->columns && !status; at++) {
-        mean->value[at] = mean_of(table, count, at, NULL);
+        const bool axis = is_axis(table, at);
+        const size_t finite = count_finite(table, count, at);
+        mean->value[at] = mean_of(table, count, at, axis, NULL);
         if (low) low->value[at] = high->value[at] = NAN;
-        if (count < 2 || !low) continue;
-        resample(table, count, at, drawn, mean->value[at], draws);
+        if (finite < 2 || !low) continue;
+        const double tail = scree_average_tail(finite);
+        resample(table, count, at, axis, drawn, mean->value[at], draws);
         low->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, tail);
         high->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, 1 - tail);
     }

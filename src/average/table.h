@@ -5,8 +5,8 @@
 /// Statist. 7, 1, 1979): whole samples are drawn with replacement, since places within one are not independent. Means
 /// of resamples scatter by less than the mean of few samples does: the quantiles are those at which Student's interval
 /// of n normal numbers would end (T. Hesterberg, Am. Stat. 69, 371, 2015, expanded percentile interval), not 2.5 and
-/// 97.5 %. They cannot leave the range of the samples, so that fewer than five have too narrow ones. Random numbers are
-/// counter-based: the same bands in every call.
+/// 97.5 %. They cannot leave the range of the samples, so that fewer than five have too narrow ones. n are the samples
+/// that have the number: one alone has no interval. Random numbers are counter-based: the same bands in every call.
 #ifndef SCREE_AVERAGE_TABLE_H
 #define SCREE_AVERAGE_TABLE_H
 
@@ -43,8 +43,8 @@ static inline double scree_average_table_get(const scree_average_table *table, s
     return table->value[row * table->columns + column];
 }
 
-/// Mean, and both ends of its band (NULL: without bands), of `count` tables of one form; bands are NAN with one table.
-/// Errors: tables of different form (SCREE_ERROR_INPUT); memory.
+/// Mean, and both ends of its band (NULL: without bands), of `count` tables of one form; bands are NAN of what fewer
+/// than two tables have. Errors: tables of different form (SCREE_ERROR_INPUT); memory.
 scree_status scree_average_table_mean(const scree_average_table *table, size_t count, scree_average_table *mean,
                                       scree_average_table *low, scree_average_table *high,
                                       scree_error *error) SCREE_MUST_USE;

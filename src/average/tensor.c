@@ -54,6 +54,8 @@ void scree_tensor_principal(const double tensor[9], int dimension, double value[
     }
 }
 
+#define ALIKE 1e-12 /* over the largest: sums of some thousand terms differ by as much that should not */
+
 scree_tensor_form scree_tensor_form_of(const double tensor[9], int dimension)
 {
     double value[3], direction[9];
@@ -62,8 +64,13 @@ scree_tensor_form scree_tensor_form_of(const double tensor[9], int dimension)
     double angle = dimension == 2 ? atan2(e[1], e[0]) : asin(fmin(1, fabs(e[2])));
     if (angle > M_PI / 2) angle -= M_PI;
     if (angle <= -M_PI / 2) angle += M_PI;
-    double trace = 0;
-    for (int k = 0; k < dimension; k++) trace += value[k];
+    double trace = 0, largest = 0;
+    for (int k = 0; k < dimension; k++) {
+        trace += value[k];
+        largest = fmax(largest, fabs(value[k]));
+    }
+    // Between two that are alike there is no largest direction: that of round-off is none.
+    if (!(value[0] - value[1] > ALIKE * largest)) angle = NAN;
     return (scree_tensor_form){trace, value[0] - value[dimension - 1], angle};
 }
 

@@ -26,7 +26,7 @@ typedef struct scree_tensor_form {
     double trace;    ///< sum of the principal values
     double deviator; ///< the largest less the smallest of them
     double angle; ///< rad, of the direction of the largest one: with the x axis, counter-clockwise, -pi/2 to pi/2; in
-                  ///< 3D its elevation above the plane x, y
+                  ///< 3D its elevation above the plane x, y. NAN where the two largest are the same to round-off
 } scree_tensor_form;
 scree_tensor_form scree_tensor_form_of(const double tensor[9], int dimension);
 

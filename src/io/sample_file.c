@@ -249,14 +249,20 @@ static void read_cell(const reading *r)
         .name = "periodic/lattice", .type = SCREE_FIELD_DOUBLE, .components = 9, .rows = 1, .single = true};
     scree_array directions = {
         .name = "periodic/directions", .type = SCREE_FIELD_UINT64, .components = 1, .rows = 1, .single = true};
+    scree_array reference = {
+        .name = "periodic/reference", .type = SCREE_FIELD_DOUBLE, .components = 9, .rows = 1, .single = true};
     if (!has(r, "periodic") || !has(r, "periodic/lattice")) return;
+    const bool referred = has(r, "periodic/reference");
     scree_hdf5_read(r->run, r->group, &lattice);
+    if (referred) scree_hdf5_read(r->run, r->group, &reference);
     scree_hdf5_read(r->run, r->group, &directions);
     if (!r->run->status) {
         memcpy(r->sample->lattice, lattice.data, sizeof r->sample->lattice);
         memcpy(&r->sample->directions, directions.data, sizeof r->sample->directions);
+        if (referred) memcpy(r->sample->reference, reference.data, sizeof r->sample->reference);
     }
     scree_array_destroy(&lattice);
+    scree_array_destroy(&reference);
     scree_array_destroy(&directions);
 }
 

@@ -54,7 +54,10 @@ static scree_status read_cuts(const char *text, scree_average_plan *plan, scree_
         value = strtod(at, &end);
         if (end == at || (*end && *end != ',') || !(value >= 0 && value <= 1) || plan->cuts == SCREE_AVERAGE_CUTS)
             return scree_error_refuse(error, "--cuts", accepted, "'%s' says no heights of cuts", text);
-        plan->height[plan->cuts++] = value;
+        // In their order: the first cut is the lowest one to whatever is told of that.
+        size_t place = plan->cuts++;
+        for (; place > 0 && plan->height[place - 1] > value; place--) plan->height[place] = plan->height[place - 1];
+        plan->height[place] = value;
         at = end + (*end == ',');
     }
     return plan->cuts > 0 ? SCREE_OK : scree_error_refuse(error, "--cuts", accepted, "no cut is named");

@@ -5,7 +5,6 @@
 #include "average/force_statistics.h"
 #include "average/increment.h"
 #include "average/profile.h"
-#include "base/matrix.h"
 #include "io/snapshot_when.h"
 
 #include <math.h>
@@ -94,14 +93,6 @@ static void tell_triangle(const scree_average_view *view, scree_average_table *v
     scree_average_table_take(values, "weight_density", "N/m3", plane ? view->weight / (area * sample->thickness) : NAN);
 }
 
-/// Of the whole sample [m2, m3]: a cell that repeats itself in all directions, else what lies within its surface.
-static double whole_volume(const scree_average_view *view)
-{
-    const scree_average_sample *sample = view->sample;
-    const bool whole = sample->directions == (1U << sample->dimension) - 1;
-    return whole ? fabs(scree_matrix_determinant(sample->lattice)) : view->surface.volume;
-}
-
 /// Mean coordination and the like, of the whole sample.
 static void tell_whole(const scree_average_view *view, scree_average_table *values)
 {
@@ -118,7 +109,7 @@ static void tell_whole(const scree_average_view *view, scree_average_table *valu
     scree_average_table_take(values, "grains", "1", (double)sample->counted);
     scree_average_table_take(values, "contacts", "1", (double)sample->contacts);
     scree_average_table_take(values, "coordination", "1", contacts / (double)sample->counted);
-    scree_average_table_take(values, "volume_fraction", "1", sample->solid / whole_volume(view));
+    scree_average_table_take(values, "volume_fraction", "1", sample->solid / view->surface.volume);
     scree_average_table_take(values, "fabric_factor", "1", weighted / solid / (contacts / (double)sample->counted));
     scree_average_table_take(values, "unbalanced_ratio", "1", sample->unbalanced_ratio);
     scree_average_table_take(values, "element_side", "m", view->frame.side);
@@ -234,7 +225,7 @@ static scree_status move(const char *directory, const scree_snapshot_mark *from,
 /// m, by which kernels reach out of a cell.
 static double margin_of(const measure_plan *plan, const scree_average_sample *sample)
 {
-    return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius) + 4 * sample->mean_radius;
+    return fmax(plan->kernel_width, 2 * plan->kernel_diameters * sample->mean_radius);
 }
 
 /// What cannot be averaged over is a matter of the snapshot.
@@ -272,7 +263,7 @@ static scree_status measure_sample(const char *name, const measure_plan *plan, b
     own.average.fits = !own.element_given;
     if (!own.element_given)
         own.average.grains = sample->counted < SHARE * USUAL ? fmax(1, (double)(sample->counted / SHARE)) : USUAL;
-    // Kernels reach out of a periodic cell as far as they are wide, branches included.
+    // Kernels reach out of a periodic cell as far as they are wide.
     if (own.kernel) status = scree_average_sample_repeat(sample, margin_of(&own, sample), error);
     if (!status && own.kernel && before->own)
         status = scree_average_sample_repeat(before, margin_of(&own, sample), error);

@@ -61,8 +61,7 @@ static bool is_too_much(const incipient *of, double on_axis)
 
 static scree_status refuse(scree_error *error)
 {
-    return scree_error_refuse(error, "slope", "up to 86 degrees",
-                              "the pile at the limit of failure was not found: take a smaller angle");
+    return scree_error_refuse(error, "slope", "0.5 to 85.5 degrees", "the pile at the limit of failure was not found");
 }
 
 static scree_status fill_series(const incipient *of, double on_axis, scree_ideal_pile *p, scree_error *error)

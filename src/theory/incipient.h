@@ -16,9 +16,9 @@
 #include "base/error.h"
 #include "theory/pile.h"
 
-/// slope  [rad]   also the angle of internal friction, 0.5 to 86 degrees
+/// slope  [rad]   also the angle of internal friction, 0.5 to 85.5 degrees
 /// weight [N/m3]  rho g
-/// Errors: memory; SCREE_ERROR_INPUT with the field `slope` if no solution is found, which is so above 86 degrees.
+/// Errors: memory; SCREE_ERROR_INPUT with the field `slope` if no solution is found, which is so above 85.7 degrees.
 scree_status scree_incipient_pile(double slope, double weight, scree_ideal_pile *pile,
                                   scree_error *error) SCREE_MUST_USE;
 

@@ -67,10 +67,14 @@ static core core_of(const sides *w, double right)
     return (core){left, right, {a[1] + right * shear, (b[1] + shear) / right, shear}};
 }
 
+static bool is_between(const sides *w, const core *c)
+{
+    return c->left > w->end[0] && c->left < w->axis && c->right > w->axis && c->right < w->end[1] && c->left < 0;
+}
+
 static bool is_inside(const sides *w, const core *c)
 {
-    return c->left > w->end[0] && c->left < w->axis && c->right > w->axis && c->right < w->end[1] && c->left < 0 &&
-           c->inside.xx + c->inside.yy > 0;
+    return is_between(w, c) && c->inside.xx + c->inside.yy > 0;
 }
 
 static double jump_of(const sides *w, const core *c)
@@ -109,12 +113,15 @@ static bool is_of_kind(const sides *w, scree_wedge_kind kind, const core *c)
 
 static bool find_core(const sides *w, scree_wedge_kind kind, core *found)
 {
-    const double from = fmax(w->axis, 0), width = w->end[1] - from;
+    // By angles: a flat slope is far off, and a steep one near.
+    const double from = fmax(w->axis, 0), angle = atan(from), width = atan(w->end[1]) - angle;
     double before = NAN, place = from;
     for (int k = 1; k < SCAN; k++) {
-        const double right = from + width * k / SCAN;
+        const double right = tan(angle + width * k / SCAN);
         const core c = core_of(w, right);
-        const double here = is_inside(w, &c) ? condition(w, kind, &c) : NAN;
+        // Where the ray would be drawn apart the condition is positive: what is pressed there may be narrower than a
+        // step.
+        const double here = is_between(w, &c) ? condition(w, kind, &c) : NAN;
         if ((here > 0 && before <= 0) || (here <= 0 && before > 0)) {
             *found = refine(w, kind, place, right);
             if (is_of_kind(w, kind, found)) return true;

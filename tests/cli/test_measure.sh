@@ -54,6 +54,10 @@ expect 0 'warning: pile1: an element holds 6 grains, fewer than 30' "$scree" mea
 expect 0 'height +dip +interval' "$scree" measure pile1 pile2 --cuts 0,0.4 --no-figures -o both
 head -1 both/cuts.csv | grep -q 'stress_yy_low \[Pa\]' || complain "no bands in both/cuts.csv"
 same "$("$scree" get both runs)" 2 runs
+# Cuts have an order of their own: the dip is that of the lowest one, wherever it is named.
+expect 0 'height +dip +interval' "$scree" measure pile1 pile2 --cuts 0.4,0 --no-figures -o back
+checks=$((checks + 1))
+cmp -s both/cuts.csv back/cuts.csv && cmp -s both/dips.csv back/dips.csv || complain "the order in which cuts are named matters"
 grep -q 'warning: bands and intervals of 2 runs are too narrow: give 5 or more' <<<"$output" || complain "nothing is said of bands of two runs"
 same "$("$scree" get both warnings)" "elements hold 6 grains, fewer than 30; bands of 2 runs are too narrow" "warnings of two runs"
 expect 2 "no result 'dip_low' in 'pile1': it is one of several runs, of which .scree measure RUN RUN RUN -o DIR. tells it; then .scree get DIR dip_low" \

@@ -129,7 +129,8 @@ expect 2 '--phi: .*angle of repose' "$scree" theory ife
 expect 2 '--phi: .*left,right' "$scree" theory wedge --phi 28,
 expect 2 '--phi: .*below 90' "$scree" theory bcc --phi 90
 expect 2 '--phi: .*below 90' "$scree" theory wedge --phi 28,-3
-expect 2 '--phi: .*smaller angle' "$scree" theory ife --phi 88
+expect 2 '--phi: .*0.5 to 85.5 degrees' "$scree" theory ife --phi 88
+expect 2 '--phi: .*0.5 to 85.5 degrees' "$scree" theory ife --phi 0.1
 expect 2 '--phi: .*symmetric' "$scree" theory osl --phi 28,21 --eta 0.7
 expect 2 '--height: .*above 0' "$scree" theory fpa --phi 28 --height 0
 expect 2 '--eta: .*real characteristics.*larger eta' "$scree" theory osl --phi 28 --eta -0.5 --mu 0.2

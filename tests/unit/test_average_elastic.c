@@ -258,6 +258,46 @@ static void constants_of_an_ensemble_are_those_of_its_mean_fields(void **state)
     scree_average_sample_destroy(&sample);
 }
 
+/// Samples of which some have no strain in an element: stress and strain are those of the same ones, whose number says
+/// how wide the band is; one alone has none.
+static void constants_are_of_samples_that_have_all(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 4 };
+    for (size_t with = 1; with <= 2; with++) {
+        scree_average_table table[SAMPLES], mean, low, high;
+        scree_error error;
+        scree_average_sample sample = average_begin(2);
+        double stress[9], gradient[SCREE_AVERAGE_STRAINS][9];
+        for (size_t k = 0; k < SAMPLES; k++) {
+            table[k] = (scree_average_table){0};
+            make_fields(2, 3e6, 2e6, 700 * (k + 1), stress, gradient[0]);
+            for (int i = 0; i < 9 && k >= with; i++) gradient[0][i] = NAN;
+            for (int d = 1; d < SCREE_AVERAGE_STRAINS; d++) memcpy(gradient[d], gradient[0], sizeof gradient[0]);
+            scree_average_value value = {.volume = 4, .inside = k >= with ? 0.1 : 0.5};
+            for (int i = 0; i < 9; i++) value.centres.change[i] = stress[i] * value.volume * sample.thickness;
+            check(scree_average_table_begin_row(&table[k], &error), &error);
+            take(&table[k], "inside", "1", value.inside);
+            scree_average_strain_tell(2, (double[3]){0}, gradient, take, &table[k]);
+            scree_average_elastic_tell(&sample, &value, gradient, take, &table[k]);
+            check(scree_average_table_end_row(&table[k], &error), &error);
+        }
+        check(scree_average_table_mean(table, SAMPLES, &mean, &low, &high, &error), &error);
+        check(scree_average_elastic_ensemble(table, SAMPLES, &mean, &low, &high, &error), &error);
+        near(column(&mean, "bulk_modulus"), 3e6, 1e-2);
+        near(column(&mean, "shear_modulus_inside"), 4e6, 1e-2);
+        near(column(&mean, "elastic_misfit"), 0, 1e-7);
+        assert_int_equal(isnan(column(&low, "bulk_modulus")), with == 1);
+        assert_int_equal(isnan(column(&high, "shear_modulus_bagi")), with == 1);
+        assert_int_equal(isnan(column(&high, "cundall_xx")), with == 1);
+        for (size_t k = 0; k < SAMPLES; k++) scree_average_table_destroy(&table[k]);
+        scree_average_table_destroy(&mean);
+        scree_average_table_destroy(&low);
+        scree_average_table_destroy(&high);
+        scree_average_sample_destroy(&sample);
+    }
+}
+
 // ---- smooth strains ----------------------------------------------------------------------------------------------
 
 /// An affine motion of any size is found at all points, at the edges of the sample too.
@@ -440,6 +480,7 @@ int main(void)
         cmocka_unit_test(discs_on_a_triangular_lattice),
         cmocka_unit_test(spheres_on_a_cubic_lattice),
         cmocka_unit_test(constants_of_an_ensemble_are_those_of_its_mean_fields),
+        cmocka_unit_test(constants_are_of_samples_that_have_all),
         cmocka_unit_test(smooth_strains_are_exact_for_affine_motion),
         cmocka_unit_test(sizes_predict_the_fabric),
         cmocka_unit_test(two_states_of_a_lattice),

@@ -3,6 +3,7 @@
 
 #include "average/cuts.h"
 #include "average/tensor.h"
+#include "base/matrix.h"
 
 static scree_average_view open_view(scree_average_sample *s, const scree_average_plan *plan)
 {
@@ -272,6 +273,64 @@ static void test_plate(void **state)
     scree_average_sample_destroy(&s);
 }
 
+/// A layer on a floor that repeats itself to the sides: images bear the plate no second time, and elements that reach
+/// out of its free surface say so, as in a heap.
+static void test_layer(void **state)
+{
+    (void)state;
+    enum { WIDE = 12, HIGH = 8 };
+    scree_average_sample s = average_begin(2);
+    s.directions = 1;
+    s.gravity[1] = -10;
+    memcpy(s.lattice, (double[9]){WIDE, 0, 0, 0, 1, 0, 0, 0, 1}, sizeof s.lattice);
+    for (uint32_t k = 0; k < WIDE * HIGH; k++) {
+        const uint32_t grain = average_add(&s, k % WIDE + 0.5, k / WIDE + 0.5, 0, 0.5);
+        const double above[3] = {0, 10 * s.grain[grain].mass * (HIGH - (double)(k / WIDE)), 0};
+        if (k < WIDE)
+            average_stand(&s, grain, (double[3]){s.grain[grain].position[0], 0, 0}, above);
+        else
+            average_touch(&s, grain, k - WIDE, above);
+    }
+    average_finish(&s);
+    double averages, weight;
+    scree_average_view view = open_view(&s, &(scree_average_plan){.side = 3});
+    scree_average_plate_force(&view, &averages, &weight);
+    near(averages, weight, 1e-12 * weight);
+    // Columns of a quarter of a diameter cut tops by 0.1 of a radius at most.
+    for (int over = 0; over < 3; over++) {
+        const scree_average_element element = {{10, 5 + over, 0}, {13, 8 + over, 0}};
+        near(told(&view, &element, SCREE_AVERAGE_DENSITY, "inside"), 1 - over / 3.0, 0.1 / 3);
+    }
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
+/// A cell that leans both ways has less room than the box along the axes: an element that shall hold 16 of its 64
+/// grains is a quarter of the cell, and the bulk density is that of the cell.
+static void test_room_of_a_cell(void **state)
+{
+    (void)state;
+    enum { N = 8 };
+    scree_average_sample s = average_begin(2);
+    const double lattice[9] = {N, 0.4 * N, 0, 0.3 * N, N, 0, 0, 0, 1}, room = (1 - 0.3 * 0.4) * N * N;
+    s.directions = 3;
+    memcpy(s.lattice, lattice, sizeof lattice);
+    for (uint32_t k = 0; k < N * N; k++) {
+        const double at[3] = {(double)(k % N) / N, (double)(k / N) / N, 0};
+        double x[3];
+        scree_matrix_apply(lattice, at, x);
+        (void)average_add(&s, x[0], x[1], 0, 0.4);
+    }
+    average_touch(&s, 0, 1, (double[3]){1, 0, 0});
+    average_finish(&s);
+    scree_average_view view = open_view(&s, &(scree_average_plan){.grains = 16});
+    near(view.frame.side * view.frame.side, 0.25 * room, 1e-12 * room);
+    near(view.grains, 16, 1e-12);
+    near(view.bulk_density, s.mass / (room * s.thickness), 1e-9 * view.bulk_density);
+    scree_average_view_close(&view);
+    scree_average_sample_destroy(&s);
+}
+
 /// R 2.42 with the sign of 2.43, d sigma_il / d x_l = rho g_i with compression positive: the pressure of a column under
 /// its weight falls upwards, by the weight of a layer in each layer (R 2.42 would have it grow).
 static void test_sign_of_equilibrium(void **state)
@@ -323,6 +382,11 @@ static void test_principal(void **state)
     const double unit[9] = {5, 0, 0, 0, 5, 0, 0, 0, 5};
     near(scree_tensor_form_of(unit, 3).deviator, 0, 0);
     near(scree_tensor_form_of(plain, 2).angle, M_PI / 4, 1e-14);
+    // What is round has no axis, whatever round-off leaves of it; of a disc-like one no direction is the largest.
+    const double round[9] = {3, 2e-15, 0, 2e-15, 3, 0, 0, 0, 0}, flat[9] = {3, 2e-15, 0, 2e-15, 3, 0, 0, 0, 1};
+    assert_true(isnan(scree_tensor_form_of(round, 2).angle));
+    assert_true(isnan(scree_tensor_form_of(flat, 3).angle));
+    near(scree_tensor_form_of(flat, 3).deviator, 2, 1e-14);
 }
 
 /// Thirty grains of three hundred are thirty: the side that a tenth of them fill, squared, over the room of a grain
@@ -347,6 +411,8 @@ int main(void)
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_surface_of_polygons),
         cmocka_unit_test(test_plate),
+        cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_room_of_a_cell),
         cmocka_unit_test(test_sign_of_equilibrium),
         cmocka_unit_test(test_bad_samples),
         cmocka_unit_test(test_principal),

@@ -5,6 +5,8 @@
 #include "average/profile.h"
 #include "average/sizes.h"
 
+#include <stdio.h>
+
 typedef struct wanted {
     const char *name;
     double value;
@@ -169,6 +171,47 @@ static void test_profile(void **state)
     scree_average_table_destroy(&table);
 }
 
+/// In space elevations do not say how far two axes are apart: that of the largest pressure lies along x, that of the
+/// fabric along y or at 35 degrees from x, which is told although both elevations are 0; of normals that are alike in
+/// all directions none is.
+static void test_profile_in_space(void **state)
+{
+    (void)state;
+    const double angle[] = {M_PI / 2, 35 * M_PI / 180};
+    for (int k = 0; k < 2; k++) {
+        enum { POINTS = 3 };
+        const double c = cos(angle[k]), s = sin(angle[k]);
+        const double stress[9] = {-5, 0, 0, 0, -2, 0, 0, 0, -1}, round[9] = {2, 1e-16, 0, 0, 2, 0, 0, 0, 2};
+        const double fabric[9] = {1 + c * c, c * s, 0, c * s, 1 + s * s, 0, 0, 0, 0.5};
+        const double *const tensor[3] = {stress, fabric, round};
+        static const char *const name[3] = {"stress", "fabric", "normals"};
+        scree_average_table table = {0};
+        scree_error error;
+        for (int j = 0; j < POINTS; j++) {
+            char text[32];
+            check(scree_average_table_begin_row(&table, &error), &error);
+            scree_average_table_take(&table, "z", "m", 1);
+            scree_average_table_take(&table, "place", "1", j - 1);
+            scree_average_table_take(&table, "inside", "1", 1);
+            for (int t = 0; t < 3; t++)
+                for (int i = 0; i < 9; i++) {
+                    (void)snprintf(text, sizeof text, "%s_%c%c", name[t], "xyz"[i / 3], "xyz"[i % 3]);
+                    scree_average_table_take(&table, text, "1", tensor[t][i]);
+                }
+            scree_average_table_take(&table, "pressure_angle", "degree", 0);
+            scree_average_table_take(&table, "fabric_angle", "degree", 0);
+            scree_average_table_take(&table, "normals_angle", "degree", 0);
+            check(scree_average_table_end_row(&table, &error), &error);
+        }
+        wanted w = {"pressure_fabric_tilt", NAN}, none = {"pressure_normals_tilt", 1};
+        scree_average_profile_tell(&table, POINTS, pick, &w);
+        near(w.value, angle[k] * 180 / M_PI, 1e-9);
+        scree_average_profile_tell(&table, POINTS, pick, &none);
+        assert_true(isnan(none.value));
+        scree_average_table_destroy(&table);
+    }
+}
+
 /// Forces that are twice as large about the axis as beside it; what lies between does not count.
 static void test_core(void **state)
 {
@@ -271,9 +314,9 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),   cmocka_unit_test(test_scatter), cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_profile), cmocka_unit_test(test_kinetic), cmocka_unit_test(test_core),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_sizes),   cmocka_unit_test(test_scatter),          cmocka_unit_test(test_mirror),
+        cmocka_unit_test(test_profile), cmocka_unit_test(test_profile_in_space), cmocka_unit_test(test_kinetic),
+        cmocka_unit_test(test_core),    cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

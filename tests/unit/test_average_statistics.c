@@ -59,8 +59,8 @@ static void test_dip_there(void **state)
     assert_true(dip.checked_low > 0.1 && dip.checked_low <= dip.checked && dip.checked <= dip.checked_high);
 }
 
-/// Without one p is spread as it should be: below 0.05 in at most one of 20 ensembles or so. With a dome no noise of
-/// this size moves the largest place far, and with a plateau looking for the largest one does not fool the test.
+/// Without one p is spread nearly as it should be: below 0.05 in 8 of 100 ensembles of 8 flat profiles (of 2000 with 41
+/// places 162). Looking for the largest place fools the test by that much and no more.
 static void test_dip_absent(void **state)
 {
     (void)state;
@@ -76,13 +76,41 @@ static void test_dip_absent(void **state)
         naive += dip.dip / 100;
         checked += dip.checked / 100;
     }
-    // 100 trials at 5 %: more than 12 of them have a probability of 0.2 %. p <= 0.05 is 12 of 256 flips.
+    // 100 trials at 8 %: more than 12 of them have a probability of 6 %. p <= 0.05 is 12 of 256 flips.
     assert_true(small <= 12);
     // The definition finds a dip in noise, the check none.
     assert_true(naive > 0.03);
     near(checked, 0, 0.012);
     // In 95 of them or more: of resamples the largest place moves about more than of samples.
     assert_true(covered >= 90);
+}
+
+/// What one pile does not know at a place is not 0 there, on its axis least of all: places that all know decide.
+static void test_dip_of_some(void **state)
+{
+    (void)state;
+    enum { PILES = 6 };
+    double profile[PILES * POINTS], more[(PILES + 1) * POINTS];
+    make_profiles(profile, PILES, 0.3, 0.1, 4);
+    const scree_average_dip whole = dip_of(profile, PILES);
+    // A pile of which nothing is known is none.
+    memcpy(more, profile, sizeof profile);
+    for (size_t j = 0; j < POINTS; j++) more[PILES * POINTS + j] = NAN;
+    const scree_average_dip same = dip_of(more, PILES + 1);
+    near(same.dip, whole.dip, 0);
+    near(same.p, whole.p, 0);
+    near(same.low, whole.low, 0);
+    near(same.centre, whole.centre, 0);
+    // The largest place is left out where one pile has no left side there.
+    const size_t most = POINTS / 2 - (size_t)(whole.place * (POINTS / 2) + 0.5);
+    profile[2 * POINTS + most] = NAN;
+    const scree_average_dip rest = dip_of(profile, PILES);
+    assert_true(rest.place != whole.place && rest.dip < whole.dip && rest.most < whole.most);
+    near(rest.centre, whole.centre, 0);
+    // Without one of its axes nothing is known.
+    profile[2 * POINTS + POINTS / 2] = NAN;
+    const scree_average_dip none = dip_of(profile, PILES);
+    assert_true(isnan(none.dip) && isnan(none.p) && isnan(none.low) && isnan(none.checked));
 }
 
 // ---- tables ------------------------------------------------------------------------------------------------------
@@ -124,6 +152,56 @@ static void test_means(void **state)
     scree_average_table_destroy(&high);
 }
 
+/// Numbers that some samples alone have: bands are those of so many samples, and one has none, not one of no width.
+static void test_means_of_few(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 9, WITH = 6 };
+    scree_average_table part[SAMPLES] = {{0}}, whole[WITH] = {{0}}, mean, low, high, mean_of, low_of, high_of;
+    scree_error error;
+    for (int k = 0; k < SAMPLES; k++) {
+        fill(&part[k], k < WITH ? (double)k : (double)NAN, k == 0 ? 30 : NAN);
+        fill(&part[k], k == 5 ? 2 : NAN, k < 2 ? 30 + 10 * (double)k : (double)NAN);
+        if (k < WITH) fill(&whole[k], k, 0);
+    }
+    check(scree_average_table_mean(part, SAMPLES, &mean, &low, &high, &error), &error);
+    check(scree_average_table_mean(whole, WITH, &mean_of, &low_of, &high_of, &error), &error);
+    near(mean.value[0], mean_of.value[0], 1e-15);
+    // The number of those that are drawn varies here, about 6: means scatter by some 8 % more.
+    near(high.value[0] - low.value[0], high_of.value[0] - low_of.value[0], 0.15 * (high_of.value[0] - low_of.value[0]));
+    near(mean.value[1], 30, 1e-12);
+    near(mean.value[2], 2, 0);
+    for (int k = 1; k <= 2; k++) assert_true(isnan(low.value[k]) && isnan(high.value[k]));
+    near(low.value[3], 30, 1e-12);
+    near(high.value[3], 40, 1e-12);
+    scree_average_table *const all[] = {&mean, &low, &high, &mean_of, &low_of, &high_of};
+    for (int k = 0; k < SAMPLES; k++) scree_average_table_destroy(&part[k]);
+    for (int k = 0; k < WITH; k++) scree_average_table_destroy(&whole[k]);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) scree_average_table_destroy(all[k]);
+}
+
+/// Of a table in space angles are elevations, 0 to 90 degrees, whose mean is that of numbers: two axes that lie and one
+/// that stands are 30 degrees, and in the plane 0.
+static void test_elevations(void **state)
+{
+    (void)state;
+    const double angle[3] = {0, 0, 90};
+    for (int space = 0; space < 2; space++) {
+        scree_average_table table[3] = {{0}}, mean;
+        scree_error error;
+        for (int k = 0; k < 3; k++) {
+            check(scree_average_table_begin_row(&table[k], &error), &error);
+            scree_average_table_take(&table[k], space ? "z" : "y", "m", 1);
+            scree_average_table_take(&table[k], "fabric_angle", "degree", angle[k]);
+            check(scree_average_table_end_row(&table[k], &error), &error);
+        }
+        check(scree_average_table_mean(table, 3, &mean, NULL, NULL, &error), &error);
+        near(mean.value[1], space ? 30 : 0, 1e-12);
+        for (int k = 0; k < 3; k++) scree_average_table_destroy(&table[k]);
+        scree_average_table_destroy(&mean);
+    }
+}
+
 /// How many of 400 ensembles of normal numbers have the mean in their band.
 static int count_covered(size_t samples)
 {
@@ -155,7 +233,9 @@ static void test_coverage(void **state)
 
 // ---- forces ------------------------------------------------------------------------------------------------------
 
-/// Exponential forces: the rate above the mean is 1, and the interval covers it in 95 % of 200 sets.
+/// Exponential forces: the rate above the mean is 1, and the interval covers it in 98.7 % of sets: the mean that is
+/// estimated with it leaves e - 1 of the variance e / N that chi square has, and 1.96 (e / (e - 1))^(1/2) deviations
+/// are 98.6 %.
 static void test_decay(void **state)
 {
     (void)state;
@@ -172,7 +252,7 @@ static void test_decay(void **state)
         near(decay.low / decay.rate, 1 - 1.96 / sqrt(k), 2 / k);
         near(decay.high / decay.rate, 1 + 1.96 / sqrt(k), 2 / k);
     }
-    assert_true(covered >= 178 && covered <= 200); // 190, 4 sigma
+    assert_true(covered >= 191 && covered <= 200); // 197.3, 4 sigma of 1.6
     const double few[3] = {1, 1, 4};
     assert_true(isnan(scree_average_decay_fit(few, 3).rate));
 }
@@ -377,12 +457,13 @@ static void test_minimum_of_ensembles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_minimum_exact),  cmocka_unit_test(test_minimum_of_ensembles),
-        cmocka_unit_test(test_dip_exact),      cmocka_unit_test(test_dip_there),
-        cmocka_unit_test(test_dip_absent),     cmocka_unit_test(test_means),
-        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_decay),
-        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_shares),
-        cmocka_unit_test(test_chains),
+        cmocka_unit_test(test_minimum_exact), cmocka_unit_test(test_minimum_of_ensembles),
+        cmocka_unit_test(test_dip_exact),     cmocka_unit_test(test_dip_there),
+        cmocka_unit_test(test_dip_absent),    cmocka_unit_test(test_dip_of_some),
+        cmocka_unit_test(test_means_of_few),  cmocka_unit_test(test_elevations),
+        cmocka_unit_test(test_means),         cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_decay),         cmocka_unit_test(test_lattice_forces),
+        cmocka_unit_test(test_shares),        cmocka_unit_test(test_chains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

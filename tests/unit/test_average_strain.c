@@ -294,9 +294,16 @@ static void test_counted_anew(void **state)
     }
 }
 
+/// How the cell of an earlier instant comes to be another one.
+typedef struct cell_of {
+    double taken; ///< multiples of the first lattice vector that have been taken from the second one
+    bool known;   ///< the lattices at the begin of the loading are: that of the earlier instant, before a gradient
+    double begun[9];
+} cell_of;
+
 /// A grid of shaken discs in a skewed cell, which is strained and moved, all put back into the cell; contacts go across
 /// its faces.
-static scree_average_sample moved_cell(const double gradient[9])
+static scree_average_sample moved_cell(const double gradient[9], const cell_of *of)
 {
     enum { N = 9 };
     scree_average_sample s = average_begin(2), before;
@@ -313,6 +320,14 @@ static scree_average_sample moved_cell(const double gradient[9])
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
             for (int l = 0; l < 2; l++) s.lattice[3 * i + j] += gradient[3 * i + l] * before.lattice[3 * l + j];
+    if (of->known) {
+        scree_matrix_multiply(of->begun, before.lattice, before.reference);
+        memcpy(s.reference, before.reference, sizeof s.reference);
+    }
+    for (int i = 0; i < 2; i++) {
+        s.lattice[3 * i + 1] -= of->taken * s.lattice[3 * i];
+        s.reference[3 * i + 1] -= of->taken * s.reference[3 * i];
+    }
     scree_matrix_invert(s.lattice, inverse);
     for (size_t p = 0; p < s.bodies; p++) {
         double *x = s.grain[p].position;
@@ -339,13 +354,11 @@ static scree_average_sample moved_cell(const double gradient[9])
     return s;
 }
 
-/// A cell that is strained and whose bodies go round: the strain, also in an element across a corner of the cell.
-static void test_cell(void **state)
+/// The strain of a cell whose bodies go round, also in an element across a corner of the cell.
+static void examine_cell(const double gradient[9], const cell_of *of)
 {
-    (void)state;
-    const double gradient[9] = {0.02, 0.1, 0, -0.01, -0.03, 0, 0, 0, 0};
     enum { CORNER, MIDDLE };
-    scree_average_sample s = moved_cell(gradient);
+    scree_average_sample s = moved_cell(gradient, of);
     scree_error error;
     scree_average_bins bins;
     scree_average_strain strain;
@@ -370,6 +383,24 @@ static void test_cell(void **state)
     scree_average_strain_close(&strain);
     scree_average_bins_destroy(&bins);
     scree_average_sample_destroy(&s);
+}
+
+static void test_cell(void **state)
+{
+    (void)state;
+    examine_cell((double[9]){0.02, 0.1, 0, -0.01, -0.03}, &(cell_of){0});
+}
+
+/// A cell in shear leans over more and more, until a lattice vector is taken from the other: the same lattice by other
+/// vectors. Its strain goes on; that of the vectors as they stand would be 0.4 - 1, and 3.3 - 3.
+static void test_cell_that_leans_over(void **state)
+{
+    (void)state;
+    examine_cell((double[9]){0.02, 0.4, 0, -0.01, -0.03}, &(cell_of){.taken = 1});
+    examine_cell((double[9]){-0.3, 0.4, 0, 0, 0.2}, &(cell_of){.taken = 1});
+    // Any strain, where the loading began with the earlier lattice, and where it began before.
+    examine_cell((double[9]){0.02, 3.3, 0, 0, -0.03}, &(cell_of){3, true, {1, 0, 0, 0, 1, 0, 0, 0, 1}});
+    examine_cell((double[9]){0.02, 3.3, 0, 0, -0.03}, &(cell_of){3, true, {1.1, -0.4, 0, 0.02, 1.3, 0, 0, 0, 1}});
 }
 
 /// What cannot be found is NAN and not zero; what cannot be compared is refused.
@@ -401,9 +432,15 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_affine),    cmocka_unit_test(test_rotation),     cmocka_unit_test(test_turning),
-        cmocka_unit_test(test_cell),      cmocka_unit_test(test_refused),      cmocka_unit_test(test_spheres),
-        cmocka_unit_test(test_own_turns), cmocka_unit_test(test_counted_anew),
+        cmocka_unit_test(test_affine),
+        cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_cell),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_spheres),
+        cmocka_unit_test(test_own_turns),
+        cmocka_unit_test(test_counted_anew),
+        cmocka_unit_test(test_cell_that_leans_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

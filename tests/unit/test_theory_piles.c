@@ -492,6 +492,22 @@ static void wedge_closed_forms(void **unused)
     }
 }
 
+/// R 4.13 of slopes as flat and as steep as they can be, where what is pressed about the ray that yields is a part of
+/// 1e-4 of the core and less. The root of the dip as printed, freed of its difference.
+static void wedges_of_any_slope(void **unused)
+{
+    (void)unused;
+    const double degrees[] = {0.1, 1, 60, 80, 84, 87, 89, 89.9};
+    for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++) {
+        const double phi = degrees[i] * DEGREE, c = sin(phi), s = cos(phi);
+        const double hat[SCREE_WEDGES] = {[SCREE_WEDGE_DIP] = s / (sqrt(1 + pow(1 - c, 2)) + 1),
+                                          [SCREE_WEDGE_SMOOTH] = s / sqrt(1 + c * c),
+                                          [SCREE_WEDGE_PEAK] = s / pow(1 + c, 2) * (sqrt(1 + pow(1 + c, 2)) + 1)};
+        for (int k = 0; k < SCREE_WEDGES; k++)
+            assert_near(tan(wedge_of(phi, phi, (scree_wedge_kind)k, NULL).core[1]) / hat[k], 1, 1e-9);
+    }
+}
+
 /// Where the surface yields and the slopes are equal OSL is the wedge whose core ends at its characteristic, and the
 /// smooth wedge is BCC: their stresses cannot tell the two theories apart.
 static void wedges_are_osl(void **unused)
@@ -630,6 +646,7 @@ int main(void)
         cmocka_unit_test(osl_refused),
         cmocka_unit_test(incipient_ends),
         cmocka_unit_test(wedge_closed_forms),
+        cmocka_unit_test(wedges_of_any_slope),
         cmocka_unit_test(wedges_are_osl),
         cmocka_unit_test(wedge_numbers_of_the_source),
         cmocka_unit_test(wedge_conditions),
