@@ -19,8 +19,9 @@
 #define SPOUT                                                                                                          \
     "sources: [{source: point, place: [0, 60 mm], interval: 20 ms, velocity: [0, -0.5], spread: [30 mm/s, 0.1]}]\n"
 
-static const char *const schemes[] = {"integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
-                                      "integrator.scheme=two_timescales"};
+static const char *const schemes[] = {
+    "integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
+    "integrator={scheme: two_timescales, repeats: 2, large_multiple: 2, small_steps: 1}"};
 
 /// Gravity of the stage turns and grows.
 #define TURNS "gravity=[[0 s, 0, -5], [20 ms, 4, -9], [50 ms, -8, -20]]"
