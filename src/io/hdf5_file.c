@@ -348,22 +348,20 @@ void scree_hdf5_group(scree_hdf5 *hdf5, const char *name)
     if (!hdf5->status && H5Lexists(hdf5->file, name, H5P_DEFAULT) <= 0) make_group(hdf5, name);
 }
 
-/// Where the dataset `name` is made, and *leaf, what it is called there: in its group, which stays open for the next
-/// one (finding a group by its name, and asking whether it is there, takes as long as making a small dataset); in a
-/// file of all processes by its whole name. Negative on failure.
-static hid_t enter_group(scree_hdf5 *hdf5, const char *name, const char **leaf)
+/// Where the dataset `name` is, and *leaf, what it is called there: in its group, which stays open for the next one
+/// (finding a group by its name, and asking whether it is there, takes as long as making a small dataset); in a file of
+/// all processes by its whole name. With `make` groups that are not there are made. Negative on failure.
+static hid_t enter_group(scree_hdf5 *hdf5, const char *name, bool make, const char **leaf)
 {
     const char *end = strrchr(name, '/');
     const size_t length = (size_t)(end - name);
     *leaf = hdf5->together.path || length == 0 ? name : end + 1;
-    if (*leaf == name) {
-        make_groups_above(hdf5, name);
-        return hdf5->file;
-    }
-    if (hdf5->group >= 0 && strncmp(hdf5->group_name, name, length) == 0 && hdf5->group_name[length] == 0)
-        return hdf5->group;
+    const bool entered = hdf5->group >= 0 && strncmp(hdf5->group_name, name, length) == 0 &&
+                         hdf5->group_name[length] == 0 && *leaf != name;
+    if (entered) return hdf5->group;
+    if (make) make_groups_above(hdf5, name);
+    if (*leaf == name) return hdf5->file;
     leave_group(hdf5);
-    make_groups_above(hdf5, name);
     (void)snprintf(hdf5->group_name, sizeof hdf5->group_name, "%.*s", (int)length, name);
     if (!hdf5->status) hdf5->group = H5Gopen2(hdf5->file, hdf5->group_name, H5P_DEFAULT);
     return hdf5->group;
@@ -448,9 +446,9 @@ void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *ar
     hid_t space = rank ? H5Screate_simple(rank, dimensions, NULL) : H5Screate(H5S_SCALAR);
     const char *leaf;
     hid_t dataset = H5I_INVALID_HID, layout = with_checksum(hdf5, &all, rank, dimensions);
-    const hid_t group_there = enter_group(hdf5, name, &leaf);
-    if (space >= 0 && layout >= 0 && group_there >= 0)
-        dataset = H5Dcreate2(group_there, leaf, memory_type(array->type), space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    const hid_t there = enter_group(hdf5, name, true, &leaf);
+    if (space >= 0 && layout >= 0 && there >= 0)
+        dataset = H5Dcreate2(there, leaf, memory_type(array->type), space, H5P_DEFAULT, layout, H5P_DEFAULT);
     if (dataset < 0 || !write_rows(hdf5, dataset, array, &all)) scree_hdf5_fail(hdf5, "write", name);
     describe(hdf5, dataset, "unit", array->unit);
     describe(hdf5, dataset, "description", array->meaning);
@@ -507,7 +505,9 @@ static void read_array(scree_hdf5 *hdf5, const char *group, scree_array *array, 
     if (hdf5->status) return;
     char name[160];
     path_in_file(name, sizeof name, group, array->name);
-    hid_t dataset = H5Dopen2(hdf5->file, name, H5P_DEFAULT);
+    const char *leaf;
+    const hid_t there = enter_group(hdf5, name, false, &leaf);
+    hid_t dataset = there >= 0 ? H5Dopen2(there, leaf, H5P_DEFAULT) : H5I_INVALID_HID;
     const bool agreed = dataset >= 0 && agrees(dataset, array);
     if (agreed && range) take_range(array);
     if (dataset < 0)
