@@ -44,7 +44,7 @@ done
 # Displacements are arrows, in figures of the run, too; without a comparison there are none.
 same "$(number run320 compared_with)" settle "the stage of the earlier state"
 expect 0 'displacements.svg' "$scree" plot run320 --only displacements
-expect 0 'not at rest.*lengthen stage .change.' "$scree" run change.yaml "${small[@]}" --set measure.compare_with=auto --set stages.change.duration="10 ms" --after run10 -o alone
+expect 0 'not at rest.*lengthen stage .change.' "$scree" run change.yaml "${small[@]}" --set measure.compare_with=auto --set stages.settle.duration="10 ms" --set stages.change.duration="10 ms" -o alone
 expect 2 'no figure of this name' "$scree" plot alone --only displacements
 checks=$((checks + 1))
 head -1 one/kernel.csv | grep -q 'stress_change_xx \[Pa\].*gradient_xy \[1\].*bulk_modulus \[Pa\]' || complain "smooth constants"
