@@ -2,6 +2,7 @@
 /// offsets ("degC", "m @ 3"), logarithms and udunits' reciprocals ("s" for "1/s") are refused.
 #include "base/units.h"
 
+#include "base/checksum.h"
 #include "base/memory.h"
 
 #include <udunits2.h>
@@ -184,13 +185,53 @@ static lookup find_factor(const char *text, const char *unit, double *factor, co
     return result != FOUND && errno == ENOMEM ? NO_MEMORY : result;
 }
 
+/// Factors that were found, each in the place of its hash, where the next one of that hash takes its place. A case has
+/// some hundred values with a few dozen units between them, and the limits of its keys; udunits2 takes ten times as
+/// long as all else that reads them. Guarded by udunits_lock.
+enum { KNOWN_FACTORS = 256 };
+static struct {
+    char text[LONGEST_UNIT + 2], unit[LONGEST_UNIT + 2];
+    double factor; ///< 0: none
+} known_factors[KNOWN_FACTORS];
+
+static size_t known_place(const char *text, const char *unit)
+{
+    const uint64_t hash = scree_checksum_bytes(scree_checksum_bytes(0, text, strlen(text)), unit, strlen(unit));
+    return (size_t)(hash % KNOWN_FACTORS);
+}
+
+/// The lock is held.
+static bool is_known(const char *text, const char *unit, double *factor)
+{
+    const size_t k = known_place(text, unit);
+    if (!(known_factors[k].factor > 0) || strcmp(known_factors[k].text, text) != 0 ||
+        strcmp(known_factors[k].unit, unit) != 0)
+        return false;
+    *factor = known_factors[k].factor;
+    return true;
+}
+
+static void know(const char *text, const char *unit, double factor)
+{
+    const size_t k = known_place(text, unit);
+    if (strlen(text) >= sizeof known_factors[k].text || strlen(unit) >= sizeof known_factors[k].unit) return;
+    (void)snprintf(known_factors[k].text, sizeof known_factors[k].text, "%s", text);
+    (void)snprintf(known_factors[k].unit, sizeof known_factors[k].unit, "%s", unit);
+    known_factors[k].factor = factor;
+}
+
 static lookup find_factor_alone(const char *text, const char *unit, double *factor, const char **noun)
 {
     pthread_mutex_lock(&udunits_lock);
+    if (is_known(text, unit, factor)) {
+        pthread_mutex_unlock(&udunits_lock);
+        return FOUND;
+    }
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = uselocale(c_locale);
     ut_error_message_handler loud = ut_set_error_message_handler(ut_ignore);
     lookup result = find_factor(text, unit, factor, noun);
+    if (result == FOUND) know(text, unit, *factor);
     ut_set_error_message_handler(loud);
     uselocale(before);
     freelocale(c_locale);

@@ -70,7 +70,7 @@ void scree_hdf5_refuse(scree_hdf5 *hdf5, const char *format, ...)
 
 static void begin(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
-    *hdf5 = (scree_hdf5){.file = H5I_INVALID_HID, .path = path, .error = error};
+    *hdf5 = (scree_hdf5){.file = H5I_INVALID_HID, .group = H5I_INVALID_HID, .path = path, .error = error};
     (void)pthread_mutex_lock(&in_use);
     // Every file is closed here; at exit HDF5 (1.10) would complain of what it lost in damaged ones itself.
     (void)H5dont_atexit();
@@ -218,8 +218,15 @@ void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path, scree_error *error)
     open_existing(hdf5, H5F_ACC_RDWR);
 }
 
+static void leave_group(scree_hdf5 *hdf5)
+{
+    if (hdf5->group >= 0) H5Gclose(hdf5->group);
+    hdf5->group = H5I_INVALID_HID;
+}
+
 scree_status scree_hdf5_close(scree_hdf5 *hdf5)
 {
+    leave_group(hdf5);
     if (hdf5->file >= 0 && H5Fclose(hdf5->file) < 0) scree_hdf5_fail(hdf5, "close", NULL);
     hdf5->file = H5I_INVALID_HID;
     (void)H5Eclear2(H5E_DEFAULT);
@@ -270,6 +277,7 @@ static void save_together(scree_hdf5 *hdf5)
 
 scree_status scree_hdf5_save(scree_hdf5 *hdf5)
 {
+    leave_group(hdf5);
     if (hdf5->together.path)
         save_together(hdf5);
     else
@@ -340,6 +348,25 @@ void scree_hdf5_group(scree_hdf5 *hdf5, const char *name)
     if (!hdf5->status && H5Lexists(hdf5->file, name, H5P_DEFAULT) <= 0) make_group(hdf5, name);
 }
 
+/// Where the dataset `name` is, and *leaf, what it is called there: in its group, which stays open for the next one
+/// (finding a group by its name, and asking whether it is there, takes as long as making a small dataset); in a file of
+/// all processes by its whole name. With `make` groups that are not there are made. Negative on failure.
+static hid_t enter_group(scree_hdf5 *hdf5, const char *name, bool make, const char **leaf)
+{
+    const char *end = strrchr(name, '/');
+    const size_t length = (size_t)(end - name);
+    *leaf = hdf5->together.path || length == 0 ? name : end + 1;
+    const bool entered = hdf5->group >= 0 && strncmp(hdf5->group_name, name, length) == 0 &&
+                         hdf5->group_name[length] == 0 && *leaf != name;
+    if (entered) return hdf5->group;
+    if (make) make_groups_above(hdf5, name);
+    if (*leaf == name) return hdf5->file;
+    leave_group(hdf5);
+    (void)snprintf(hdf5->group_name, sizeof hdf5->group_name, "%.*s", (int)length, name);
+    if (!hdf5->status) hdf5->group = H5Gopen2(hdf5->file, hdf5->group_name, H5P_DEFAULT);
+    return hdf5->group;
+}
+
 /// Creation properties of a dataset, so that its values have a checksum: small ones lie in the object header, which has
 /// one, others in chunks with Fletcher's: one of each process that writes. Negative on failure.
 static hid_t with_checksum(const scree_hdf5 *hdf5, const scree_array *all, int rank, const hsize_t dimensions[2])
@@ -365,6 +392,7 @@ static scree_status prepare(scree_hdf5 *hdf5, const scree_array *array, scree_ar
     const bool together = hdf5->together.path != NULL;
     // The file in memory grows by being copied.
     hdf5->written = array->rows * scree_array_row_size(array) + (together ? 0 : hdf5->written);
+    if (array->rows == 0 && !together) return SCREE_OK;
     scree_status status = scree_memory_check(2 * hdf5->written + LIBRARY_BYTES, hdf5->error);
     return status || !together ? status : scree_together_prepare(&hdf5->together, array, all, hdf5->error);
 }
@@ -375,6 +403,34 @@ static bool write_rows(const scree_hdf5 *hdf5, hid_t dataset, const scree_array 
     if (all->rows == 0) return true;
     if (hdf5->together.path && !scree_array_is_small(all)) return scree_together_write(dataset, type, array, all);
     return H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all->data) >= 0;
+}
+
+/// A text of fixed length, filled with zeros; negative on failure.
+static hid_t text_type(size_t size)
+{
+    hid_t type = H5Tcopy(H5T_C_S1);
+    if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0) return type;
+    if (type >= 0) H5Tclose(type);
+    return H5I_INVALID_HID;
+}
+
+static void make_attribute(scree_hdf5 *hdf5, hid_t object, const char *attribute, hid_t type, const void *value)
+{
+    if (hdf5->status) return;
+    hid_t space = H5Screate(H5S_SCALAR), made = H5I_INVALID_HID;
+    if (space >= 0 && type >= 0 && object >= 0)
+        made = H5Acreate2(object, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    if (made < 0 || H5Awrite(made, type, value) < 0) scree_hdf5_fail(hdf5, "write attribute", attribute);
+    if (made >= 0) H5Aclose(made);
+    if (space >= 0) H5Sclose(space);
+}
+
+static void describe(scree_hdf5 *hdf5, hid_t object, const char *attribute, const char *text)
+{
+    if (hdf5->status) return;
+    hid_t type = text_type(strlen(text) + 1);
+    make_attribute(hdf5, object, attribute, type, text);
+    if (type >= 0) H5Tclose(type);
 }
 
 void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *array)
@@ -388,17 +444,18 @@ void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *ar
     hsize_t dimensions[2];
     int rank = dimensions_of(&all, dimensions);
     hid_t space = rank ? H5Screate_simple(rank, dimensions, NULL) : H5Screate(H5S_SCALAR);
+    const char *leaf;
     hid_t dataset = H5I_INVALID_HID, layout = with_checksum(hdf5, &all, rank, dimensions);
-    make_groups_above(hdf5, name);
-    if (space >= 0 && layout >= 0)
-        dataset = H5Dcreate2(hdf5->file, name, memory_type(array->type), space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    const hid_t there = enter_group(hdf5, name, true, &leaf);
+    if (space >= 0 && layout >= 0 && there >= 0)
+        dataset = H5Dcreate2(there, leaf, memory_type(array->type), space, H5P_DEFAULT, layout, H5P_DEFAULT);
     if (dataset < 0 || !write_rows(hdf5, dataset, array, &all)) scree_hdf5_fail(hdf5, "write", name);
+    describe(hdf5, dataset, "unit", array->unit);
+    describe(hdf5, dataset, "description", array->meaning);
     if (dataset >= 0) H5Dclose(dataset);
     if (layout >= 0) H5Pclose(layout);
     if (space >= 0) H5Sclose(space);
     if (all.data != array->data) scree_array_destroy(&all);
-    scree_hdf5_set_text(hdf5, name, "unit", array->unit);
-    scree_hdf5_set_text(hdf5, name, "description", array->meaning);
 }
 
 /// True when the dataset has the type and shape of `array`; sets array->rows.
@@ -448,7 +505,9 @@ static void read_array(scree_hdf5 *hdf5, const char *group, scree_array *array, 
     if (hdf5->status) return;
     char name[160];
     path_in_file(name, sizeof name, group, array->name);
-    hid_t dataset = H5Dopen2(hdf5->file, name, H5P_DEFAULT);
+    const char *leaf;
+    const hid_t there = enter_group(hdf5, name, false, &leaf);
+    hid_t dataset = there >= 0 ? H5Dopen2(there, leaf, H5P_DEFAULT) : H5I_INVALID_HID;
     const bool agreed = dataset >= 0 && agrees(dataset, array);
     if (agreed && range) take_range(array);
     if (dataset < 0)
@@ -476,12 +535,9 @@ void scree_hdf5_read_range(scree_hdf5 *hdf5, const char *group, scree_array *arr
 static void set_attribute(scree_hdf5 *hdf5, const char *name, const char *attribute, hid_t type, const void *value)
 {
     if (hdf5->status) return;
-    hid_t space = H5Screate(H5S_SCALAR), made = H5I_INVALID_HID;
-    if (space >= 0 && type >= 0)
-        made = H5Acreate_by_name(hdf5->file, name, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    if (made < 0 || H5Awrite(made, type, value) < 0) scree_hdf5_fail(hdf5, "write attribute", attribute);
-    if (made >= 0) H5Aclose(made);
-    if (space >= 0) H5Sclose(space);
+    const hid_t object = H5Oopen(hdf5->file, name, H5P_DEFAULT);
+    make_attribute(hdf5, object, attribute, type, value);
+    if (object >= 0) H5Oclose(object);
 }
 
 static void get_attribute(scree_hdf5 *hdf5, const char *name, const char *attribute, hid_t type, void *value)
@@ -493,15 +549,6 @@ static void get_attribute(scree_hdf5 *hdf5, const char *name, const char *attrib
     if (!scalar || H5Aread(found, type, value) < 0) scree_hdf5_fail(hdf5, "read attribute", attribute);
     if (space >= 0) H5Sclose(space);
     if (found >= 0) H5Aclose(found);
-}
-
-/// A text of fixed length, filled with zeros; negative on failure.
-static hid_t text_type(size_t size)
-{
-    hid_t type = H5Tcopy(H5T_C_S1);
-    if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0) return type;
-    if (type >= 0) H5Tclose(type);
-    return H5I_INVALID_HID;
 }
 
 void scree_hdf5_set_text(scree_hdf5 *hdf5, const char *name, const char *attribute, const char *text)

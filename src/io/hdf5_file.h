@@ -19,6 +19,8 @@
 typedef struct scree_hdf5 {
     size_t written;          ///< bytes of arrays
     hid_t file;              ///< negative: none
+    hid_t group;             ///< of the last array that was written or read, while it is open; negative: none
+    char group_name[160];    ///< its name
     const char *path;        ///< named in messages; caller-owned
     scree_status status;     ///< first failure
     bool damaged;            ///< the failure lies in the file, not in memory or in the caller

@@ -22,6 +22,8 @@ typedef struct checking {
     scree_reader *reader;
     const scree_findings *findings;
     const scree_statement *statement;
+    const scree_template *read; ///< the built-in sweep that was asked for last
+    scree_sweep *sweep;         ///< that sweep; NULL: none, or one that cannot be read
 } checking;
 
 static bool names_have(const names *n, const char *name)
@@ -114,26 +116,37 @@ static void check_result(const checking *c, const scree_reference *r, const scre
     if (!names_have(&known, r->result)) refuse(c, c->statement->value_place, r->result, "result", &known);
 }
 
+/// The built-in sweep of this name; NULL: none. The names of a table are mostly of one sweep after the other, and
+/// reading one, with all cases of its members, takes as long as a thousand names.
+static const scree_sweep *sweep_of(checking *c, const char *name)
+{
+    const scree_template *wanted = scree_sweep_template(name);
+    if (wanted == c->read) return c->sweep;
+    scree_sweep_free(c->sweep);
+    c->sweep = NULL;
+    c->read = wanted;
+    if (wanted && scree_sweep_read(name, NULL, &c->sweep, NULL)) c->sweep = NULL;
+    return c->sweep;
+}
+
 /// One name of an expression; points and results are judged only where something is known about them.
 static double check_reference(void *user, const char *text)
 {
-    const checking *c = user;
+    checking *c = user;
     scree_reference r;
     names known = {.count = 0}, points = {.count = 0};
-    scree_sweep *sweep = NULL;
     if (!scree_reference_read(text, &r)) return 1.5; // noted
     list_cases(c->findings, &known);
     if (!names_have(&known, r.name)) {
         refuse(c, c->statement->value_place, r.name, "sweep or case", &known);
         return 1.5;
     }
-    if (scree_sweep_template(r.name) && scree_sweep_read(r.name, NULL, &sweep, NULL)) sweep = NULL;
+    const scree_sweep *sweep = sweep_of(c, r.name);
     const scree_finding *run = list_points(c, &r, sweep, &points);
     if (points.count > 0 && !names_have(&points, r.label))
         refuse(c, c->statement->value_place, r.label, "point", &points);
     else
         check_result(c, &r, sweep, run);
-    scree_sweep_free(sweep);
     return 1.5;
 }
 
@@ -149,10 +162,12 @@ static void check_statement(checking *c, const scree_statement *statement)
 void scree_statements_check_names(scree_reader *reader, const scree_statement_table *table,
                                   const scree_findings *findings)
 {
+    checking c = {.reader = reader, .findings = findings};
     for (int64_t i = 0; i < table->case_count; i++) {
-        checking c = {reader, findings, NULL};
+        c.statement = NULL;
         if (table->cases[i].name) check_case(&c, table->cases[i].place, table->cases[i].name);
         for (int64_t k = 0; k < table->cases[i].statement_count; k++)
             check_statement(&c, &table->cases[i].statements[k]);
     }
+    scree_sweep_free(c.sweep);
 }

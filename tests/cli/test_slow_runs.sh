@@ -10,9 +10,10 @@ near() {
 }
 value() { awk -v name="$1" '$1 == name { print $2 }' <<<"$moduli"; }
 
-# --- between plates: the outermost discs move towards each other, sides free; E over the area between the outermost surfaces
+# --- between plates: the outermost discs move towards each other, sides free; E over the area between the outermost surfaces,
+# which with half of the discs is that of the case over the root of two
 for form in none explicit; do
-    expect 0 '^' "$scree" run ddem-irregular --quick -q --no-figures --force -o press --set contact.deformation=$form --set loads.low.velocity_y='0.5 mm/s' --set loads.high.velocity_y='-0.5 mm/s' --set stages.press.duration='1 ms'
+    expect 0 '^' "$scree" run ddem-irregular --quick -q --no-figures --force -o press --set particles.count=200 --set measure.elastic_area='0.01002 m2' --set contact.deformation=$form --set loads.low.velocity_y='0.5 mm/s' --set loads.high.velocity_y='-0.5 mm/s' --set stages.press.duration='1 ms'
     near "E, $form" "$("$scree" get press axial_young_modulus)" "$("$scree" get press static_axial_young_modulus)"
     near "nu, $form" "$("$scree" get press axial_poisson_ratio)" "$("$scree" get press static_axial_poisson_ratio)"
 done
@@ -79,7 +80,7 @@ pressed() {
         }' "$1.dump" FS=, "$1/series.csv"
 }
 for form in none explicit; do
-    expect 0 '^' "$scree" run ddem-isotropic --quick -q --no-figures --force -o flat --set contact.deformation=$form --set stages.press.duration='1 ms' \
+    expect 0 '^' "$scree" run ddem-isotropic --quick -q --no-figures --force -o flat --set particles.count=200 --set contact.deformation=$form --set stages.press.duration='1 ms' \
         --set loads.low.velocity_y='0.5 mm/s' --set loads.high.velocity_y='-0.5 mm/s' --set loads.left.velocity_x='0.5 mm/s' --set loads.right.velocity_x='-0.5 mm/s'
     near "K of discs, $form" "$(pressed flat 2)" "$("$scree" get flat static_pressed_bulk_modulus)"
 done
@@ -92,7 +93,7 @@ name: ball
 dimension: 3
 seed: 3
 materials: [{name: bead, young_modulus: 200 GPa, poisson_ratio: 0.25, density: 2000 kg/m3, friction: 0, normal_stiffness: 5e7 N/m, stiffness_ratio: 0.3, damping_ratio: 0}]
-particles: {shape: sphere, material: bead, count: 400, radius_min: 0.5 mm, radius_max: 1 mm}
+particles: {shape: sphere, material: bead, count: 250, radius_min: 0.5 mm, radius_max: 1 mm}
 contact: {law: linear, deformation: explicit}
 measure:
   samples: 50

@@ -24,7 +24,7 @@
     "output: {snapshots: 2, paraview: no, figures: no" output "}\n"
 
 #define SIMULATION_SMALL                                                                                               \
-    SIMULATION_CASE("count: 70, radius_min: 0.5 mm, radius_max: 1 mm", "1e-2", "0.5 %", "", ", checkpoint_steps: 700")
+    SIMULATION_CASE("count: 70, radius_min: 0.5 mm, radius_max: 1 mm", "1e-2", "0.5 %", "", ", checkpoint_steps: 7000")
 
 /// Combinations of law, scheme and update of friction.
 #define BRILLIANTOV "contact.law=hertz_brilliantov"

@@ -19,8 +19,9 @@
 #define TURNS "[[0 s, 0, -5], [20 ms, 4, -9], [50 ms, -8, -20]]"
 #define TURN  "gravity=" TURNS
 
-static const char *const schemes[] = {"integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
-                                      "integrator.scheme=two_timescales"};
+static const char *const schemes[] = {
+    "integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
+    "integrator={scheme: two_timescales, repeats: 2, large_multiple: 2, small_steps: 1}"};
 
 /// Velocity Verlet adds the trapezoids of g: exact along a straight line, wrong by at most h^2 / 8 times the bend of
 /// the table in the two steps that hold one.

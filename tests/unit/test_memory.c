@@ -1,11 +1,20 @@
-/// A whole run in which one allocation fails, at every seventh place: it ends with a message about memory, or (where
-/// what failed was not needed) as if nothing had happened.
+/// A whole run in which one allocation fails, at each place of the program that allocates: it ends with a message about
+/// memory, or (where what failed was not needed) as if nothing had happened.
+///
+/// A place is who calls whom down to the allocation. A first run notes the places of all its allocations; of those at
+/// one place (the arrays of some hundred fields, say) one fails, drawn by chance.
 #include "testing.h"
 
+#include "base/checksum.h"
 #include "base/memory.h"
+#include "base/random.h"
 #include "io_scratch.h"
 
 #include <scree/scree.h>
+
+#include <execinfo.h>
+#include <malloc.h>
+#include <stdlib.h>
 
 static const char text[] = "scree: 1\n"
                            "name: small\n"
@@ -34,30 +43,84 @@ static scree_status run(const char *output, scree_error *error)
     return status;
 }
 
+enum { MOST = 20000, DEPTH = 64 };
+static struct {
+    bool on;
+    uint64_t count;       ///< of allocations so far, and of questions for memory (scree_memory_check)
+    uint64_t place[MOST]; ///< by number, from 1 on; 0 of a question
+} noted;
+
+/// In place of libc's: what base/memory.c calls for each allocation.
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    void *frames[DEPTH];
+    if (noted.on) {
+        const int count = backtrace(frames, DEPTH);
+        uint64_t place = 0;
+        for (int k = 0; k < count; k++) place = scree_checksum_word(place, (uint64_t)(uintptr_t)frames[k]);
+        noted.count += scree_allocation_fail_after(0);
+        assert_true(noted.count < MOST);
+        noted.place[noted.count] = place;
+    }
+    return memalign(alignment, size);
+}
+
+/// Notes the places of a whole run. A question is told by the allocation before it, and by how far that is.
+static void note_places(const char *output)
+{
+    scree_error error;
+    (void)scree_allocation_fail_after(0);
+    noted.on = true;
+    check(run(output, &error), &error);
+    noted.on = false;
+    noted.count += scree_allocation_fail_after(0);
+    assert_true(noted.count < MOST);
+    for (uint64_t n = 1; n <= noted.count; n++)
+        if (noted.place[n] == 0) noted.place[n] = scree_checksum_word(noted.place[n - 1], 1);
+    scratch_destroy(output);
+}
+
+/// Whether allocation n is the one of its place that fails.
+static bool is_drawn(uint64_t n)
+{
+    uint64_t alike = 0, before = 0, first = 0;
+    for (uint64_t k = 1; k <= noted.count; k++) {
+        if (noted.place[k] != noted.place[n]) continue;
+        if (alike++ == 0) first = k;
+        before += k < n;
+    }
+    return (uint64_t)(scree_random_uniform(7, SCREE_RANDOM_TEST, first) * (double)alike) == before;
+}
+
 static void every_failure_is_told(void **unused)
 {
     (void)unused;
-    enum { STRIDE = 7 };
     char folder[64], output[128];
     size_t before, after;
+    int failed = 0, told = 0;
     scree_error error;
     assert_true(scratch_create(folder));
+    (void)snprintf(output, sizeof output, "%s/run", folder);
+    check(run(output, &error), &error); // what is made once, and stays
+    scratch_destroy(output);
     scree_allocation_statistics(&before, NULL);
-    (void)scree_allocation_fail_after(0);
-    uint64_t made = STRIDE;
-    for (uint64_t n = 1; n <= made; n += STRIDE) {
-        (void)snprintf(output, sizeof output, "%s/%u", folder, (unsigned)n);
+    note_places(output);
+    for (uint64_t n = 1; n <= noted.count; n++) {
+        if (!is_drawn(n)) continue;
         (void)scree_allocation_fail_after(n);
         scree_status status = run(output, &error);
-        made = scree_allocation_fail_after(0);
+        assert_true(scree_allocation_fail_after(0) >= n);
         if (status && !strstr(error.message, "memory"))
             fail_msg("allocation %u: status %d, '%s'", (unsigned)n, (int)status, error.message);
         assert_true(status == SCREE_OK || status == SCREE_ERROR_IO);
         scree_allocation_statistics(&after, NULL);
         assert_int_equal(before, after);
-        if (status) made = n + STRIDE; // there may be more
+        failed++;
+        told += status != SCREE_OK;
         scratch_destroy(output);
     }
+    print_message("%d places of %d allocations, %d end the run\n", failed, (int)noted.count, told);
+    assert_true(told > failed / 2);
     scratch_destroy(folder);
 }
 

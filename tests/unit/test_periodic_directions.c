@@ -235,7 +235,7 @@ static void restart_gives_the_same_bits(void **unused)
     (void)snprintf(whole, sizeof whole, "%s/whole", folder);
     (void)snprintf(part, sizeof part, "%s/part", folder);
     for (int k = 0; k < ALL; k += 5) {
-        scree_case *c = case_of(&combinations_of[k], "output.checkpoint_steps=300", NULL);
+        scree_case *c = case_of(&combinations_of[k], "output.checkpoint_steps=3000", NULL);
         run_restart(c, whole, part, 2, "stage prepare ended");
         scree_case_free(c);
     }

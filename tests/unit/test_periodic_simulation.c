@@ -31,7 +31,7 @@ static const char case_text[] =
     "  - {stage: deform, velocity_gradient: {xy: 0.8 1/s, yx: -0.2 1/s}, stress: {xx: 80 kPa, yy: 100 kPa}, strain: 70 "
     "%}\n"
     "measure: {samples: 20}\n"
-    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 700}\n";
+    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 7000}\n";
 
 /// A lattice in rapid flow: few steps, all stages, a lattice of the cell that is remapped.
 #define SHORT                                                                                                          \

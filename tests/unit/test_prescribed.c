@@ -27,8 +27,9 @@
     "  - {stage: relax, name: second, duration: 2 ms}\n"
 #define EACH "selections:\n  - {select: ids, name: one, ids: [0]}\n  - {select: ids, name: other, ids: [1]}\n"
 
-static const char *const schemes[] = {"integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
-                                      "integrator.scheme=two_timescales"};
+static const char *const schemes[] = {
+    "integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
+    "integrator={scheme: two_timescales, repeats: 2, large_multiple: 2, small_steps: 1}"};
 
 static void enter(scree_simulation *s, int64_t stage)
 {
