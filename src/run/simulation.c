@@ -88,7 +88,7 @@ static scree_status open_ledger(scree_simulation *s, scree_error *error)
     state->ledger.initial =
         energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
     state->ledger.gravity = energy.gravity;
-    return SCREE_OK;
+    return scree_contacts_were_placed(&s->stage_model, state, &s->work, error);
 }
 
 /// Changes to the boundary of the stage that begins. What walls that go hold in their contacts goes with them; bodies
