@@ -257,13 +257,18 @@ static void stop(scree_state *state, size_t row)
 }
 
 /// Kinetic energy v(n - 1/2) . v(n + 1/2) with which one that sleeps comes back into the step: none but that of a
-/// scheme whose velocity of n is that of rest, so that the two are opposite [J].
+/// scheme whose velocity of n is that of rest, so that the two are opposite; or that of a scheme which has a velocity
+/// of its own at n, as the forces at n give it to one that had none [J].
 static double kinetic_of_waking(const scree_context *c, size_t row)
 {
     const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
     const double lead = integrator->velocity_lead, step = c->state->step_size;
-    scree_vector force, torque;
-    if (integrator->velocity) return 0;
+    scree_vector force, torque, velocity, spin;
+    if (integrator->velocity) {
+        integrator->velocity(c->model, c->state, row, velocity, spin);
+        return 0.5 * (scree_body_mass(c->state, row) * scree_dot(velocity, velocity) +
+                      scree_body_inertia(c->state, row) * scree_dot(spin, spin));
+    }
     scree_body_force(c->model, c->state, row, force, torque);
     return -0.5 * lead * (1 - lead) * step * step *
            (scree_dot(force, force) / scree_body_mass(c->state, row) +

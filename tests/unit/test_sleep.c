@@ -222,6 +222,22 @@ static void a_heap_sleeps_wakes_and_keeps_its_balance(void **unused)
     }
 }
 
+/// A scheme with a velocity of its own at n gives one that wakes, under forces that are out of balance, a velocity and
+/// with it an energy: of ten grains poured into the trough the balance closes as with all awake.
+static void one_that_wakes_under_gear_brings_its_energy(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"integrator.scheme=gear", "integrator.step=4e-6 s", "guard.stability=warn",
+                                     "particles.count=10"};
+    scree_case *c;
+    scree_simulation s = open_with(polygons, overrides, COUNT_OF(overrides), &c);
+    const watched seen = watch(&s);
+    print_message("at most %zu asleep, %zu times some woke, residual %.2g\n", seen.most, seen.changes, seen.residual);
+    assert_true(seen.most > 3 && seen.changes > 3);
+    assert_true(seen.residual < 1e-8);
+    close_both(&s, c);
+}
+
 // ---- who sleeps, and who wakes -------------------------------------------------------------------------------------
 
 /// Bodies that fall never sleep, not even where they turn round with no velocity; nor does one that is prescribed.
@@ -515,6 +531,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_rests_is_what_contacts_exert),
         cmocka_unit_test(a_heap_sleeps_wakes_and_keeps_its_balance),
+        cmocka_unit_test(one_that_wakes_under_gear_brings_its_energy),
         cmocka_unit_test(what_falls_does_not_sleep),
         cmocka_unit_test(gravity_wakes),
         cmocka_unit_test(a_push_wakes_at_its_mean),
