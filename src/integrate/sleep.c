@@ -14,8 +14,8 @@
 /// the look before, one that it had when it fell asleep or with what came to rest beside it later, what others that
 /// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well; and what has been
 /// out of balance by more than `force` at all looks for a window, as it had to be in balance for one to fall asleep.
-/// All wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, and when another
-/// stage begins.
+/// All wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, when another
+/// stage begins, and before one that sleeps is taken out or changed from outside.
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
@@ -296,7 +296,7 @@ static void book_taken(const scree_context *c)
     state->ledger.turnover += fabs(scree_integer_sum_total(&taken));
 }
 
-static void wake_all(const scree_context *c)
+void scree_sleep_wake_all(const scree_context *c)
 {
     scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
@@ -399,7 +399,7 @@ static scree_status wake(const scree_context *c, scree_error *error)
     (void)error;
     // Otherwise gravity and walls are what they were.
     if (!all_wake(c)) return SCREE_OK;
-    wake_all(c);
+    scree_sleep_wake_all(c);
     if (!may_sleep(c, &limits)) return SCREE_OK;
     memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
     sleep->walls = scree_case_walls_that_move(c->model, c->state);
@@ -450,7 +450,7 @@ static bool in_use(const scree_context *c)
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     (void)error;
-    wake_all(c);
+    scree_sleep_wake_all(c);
     return SCREE_OK;
 }
 

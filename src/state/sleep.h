@@ -49,22 +49,22 @@ typedef struct scree_sleep {
     scree_resting_load wall[SCREE_SURFACES]; ///< in the order of the case
     double wall_torque_unit;                 ///< N m, a power of two
     uint8_t *asleep;                         ///< a body; NULL: no stage yet in which bodies may sleep
-    uint32_t *quiet;                         ///< a body: steps for which it has been quiet; of one that sleeps, out of balance
-    scree_resting *resting;                  ///< a body
-    scree_counted *counted;                  ///< a body
-    double (*push)[6];    ///< a body: mean resultant of the last window over weight, force and torque over radius
-    double force_unit;    ///< N, a power of two
-    double torque_unit;   ///< N m, the same
-    double gravity[3];    ///< m/s2, of the last step
-    uint64_t walls;       ///< a bit for each wall of the case that moved in it
-    double overlap;       ///< m, no contact of two that sleep has a larger one
-    double taken;         ///< J, kinetic energy of bodies when they fell asleep, less that of those that woke
-    uint64_t awake_steps; ///< steps of all bodies that were awake, since the first could sleep
-    uint64_t steps;       ///< steps since then
-    uint64_t count;       ///< bodies that sleep (derived)
-    uint64_t total;       ///< the same of all processes (derived)
-    uint64_t changes;     ///< times that some fell asleep or woke in this process (derived)
-    uint32_t *moving;     ///< rows of those that are awake; moving_count of them, where some sleep (derived)
+    uint32_t *quiet;        ///< a body: steps for which it has been quiet; of one that sleeps, out of balance
+    scree_resting *resting; ///< a body
+    scree_counted *counted; ///< a body
+    double (*push)[6];      ///< a body: mean resultant of the last window over weight, force and torque over radius
+    double force_unit;      ///< N, a power of two
+    double torque_unit;     ///< N m, the same
+    double gravity[3];      ///< m/s2, of the last step
+    uint64_t walls;         ///< a bit for each wall of the case that moved in it
+    double overlap;         ///< m, no contact of two that sleep has a larger one
+    double taken;           ///< J, kinetic energy of bodies when they fell asleep, less that of those that woke
+    uint64_t awake_steps;   ///< steps of all bodies that were awake, since the first could sleep
+    uint64_t steps;         ///< steps since then
+    uint64_t count;         ///< bodies that sleep (derived)
+    uint64_t total;         ///< the same of all processes (derived)
+    uint64_t changes;       ///< times that some fell asleep or woke in this process (derived)
+    uint32_t *moving;       ///< rows of those that are awake; moving_count of them, where some sleep (derived)
     uint64_t moving_count;
     uint32_t *pushed;      ///< rows of those that sleep whose sums are not clear; pushed_count of them (derived)
     uint64_t pushed_count; ///< SCREE_SLEEP_ALL: not known, any of them
@@ -113,5 +113,8 @@ void scree_sleep_clear_sums(scree_state *state);
 
 /// Wakes all.
 void scree_sleep_end(scree_state *state);
+
+/// Whether one of the bodies with these ids sleeps.
+bool scree_some_sleep(const scree_state *state, const uint32_t *ids, size_t count);
 
 #endif
