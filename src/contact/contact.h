@@ -75,6 +75,12 @@ scree_status scree_contact_table_build(const scree_model *model, const scree_sta
                                        scree_contact_table *table, scree_error *error) SCREE_MUST_USE;
 void scree_contact_table_destroy(scree_contact_table *table);
 
+/// Before the first step, behind scree_contact_table_build: contacts that bodies were placed with remember the energy
+/// of the table, which they hold from the begin, so that the ledger takes none of it for work of the first step. Of
+/// laws that remember energies alone. Errors: memory.
+scree_status scree_contacts_were_placed(const scree_model *model, const scree_state *state, scree_work *work,
+                                        scree_error *error) SCREE_MUST_USE;
+
 /// Copies the histories of touching pairs into state->contact, sorted by (first id, second id), and what held pairs
 /// remember to the persistent list.
 scree_status scree_contacts_save(scree_state *state, const scree_work *work, scree_error *error) SCREE_MUST_USE;

@@ -41,9 +41,14 @@ typedef struct scree_polygon_material {
     double tangential_viscosity; ///< 1, eta
 } scree_polygon_material;
 
+/// Numbers of the history: the stretch of the tangential spring, elastic force and energy of the last step, the
+/// direction of its force.
+enum { POLYGON_ENERGY = 2 };
+
 #define POLYGON_TRAITS                                                                                                 \
     {                                                                                                                  \
-        .keeps_last_force = {true, true}, .displacement = true, .wide = true, .areas = true                            \
+        .keeps_last_force = {true, true}, .displacement = true, .wide = true, .areas = true,                           \
+        .energy_at = POLYGON_ENERGY                                                                                    \
     }
 
 /// What a direction is kept as, one number in -2 .. 2: the way round the square |x| + |y| = 1 from (1, 0), which needs
@@ -126,7 +131,8 @@ SCREE_INLINE law_force polygon_force(const law_constants *constants, const law_s
         .couple = vector_none(),
         .damping = half * (before->last[0] * last.approach + damping * now.approach + slip.damping),
         .friction = half * slip.friction,
-        .stiffness = stored - before->value[2] - half * (before->value[1] * last.approach + elastic * now.approach) +
+        .stiffness = stored - before->value[POLYGON_ENERGY] -
+                     half * (before->value[1] * last.approach + elastic * now.approach) +
                      (tangential_work - half * resisted),
         .elastic_normal = stored,
         .elastic_tangential = slip.elastic,

@@ -196,6 +196,31 @@ void scree_contact_table_destroy(scree_contact_table *table)
     table->count = table->capacity = 0;
 }
 
+/// Whether its law remembers an energy, and where.
+static int energy_at(const scree_model *model, const scree_work *work, const contact_reference *r)
+{
+    const contact_list list = contact_reference_list(r);
+    if (list == CONTACT_PAIR && r->pair < scree_pairs_held(&work->pairs)) return 0;
+    return scree_law_use_traits(&model->laws[contact_law_number(work, list, r->pair)])->energy_at;
+}
+
+scree_status scree_contacts_were_placed(const scree_model *model, const scree_state *state, scree_work *work,
+                                        scree_error *error)
+{
+    contact_reference *order;
+    size_t count;
+    scree_status status = contact_order(state, work, &order, &count, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        const int at = energy_at(model, work, &order[k]);
+        scree_contact contact;
+        if (at == 0 || !fill(model, state, work, &order[k], &contact)) continue;
+        contact_memory_of(work, contact_reference_list(&order[k]), order[k].pair).history->value[at] =
+            contact.elastic_normal;
+    }
+    scree_release(&order);
+    return status;
+}
+
 scree_status scree_contacts_save(scree_state *state, const scree_work *work, scree_error *error)
 {
     contact_reference *order;

@@ -37,6 +37,9 @@ void scree_body_kinetic(const scree_model *model, const scree_state *state, size
 void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                               scree_vector spin);
 
+/// Wakes all bodies between two steps, with what rests on them (integrate/sleep.c). Of a whole state.
+void scree_sleep_wake_all(const struct scree_context *c);
+
 /// Whether bodies may sleep in one of these stages of a case (integrate/sleep.c).
 bool scree_some_may_sleep(const scree_config_stage *stage, int64_t count);
 

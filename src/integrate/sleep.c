@@ -16,8 +16,8 @@
 /// `interval`, and none falls asleep for HOLD windows then: what sleepers bear in vain, each less than `wake`, goes on
 /// to where it belongs as a wave does, in the time of one. (Were each woken by what it bears in vain, it would hand
 /// half of it back to those above: a weight would go down n layers by a walk of n^2 steps, each a window long.) All
-/// wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, and when another
-/// stage begins.
+/// wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, when another stage
+/// begins, and before one that sleeps is taken out or changed from outside.
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
@@ -252,13 +252,18 @@ static void stop(scree_state *state, size_t row)
 }
 
 /// Kinetic energy v(n - 1/2) . v(n + 1/2) with which one that sleeps comes back into the step: none but that of a
-/// scheme whose velocity of n is that of rest, so that the two are opposite [J].
+/// scheme whose velocity of n is that of rest, so that the two are opposite; or that of a scheme which has a velocity
+/// of its own at n, as the forces at n give it to one that had none [J].
 static double kinetic_of_waking(const scree_context *c, size_t row)
 {
     const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
     const double lead = integrator->velocity_lead, step = c->state->step_size;
-    scree_vector force, torque;
-    if (integrator->velocity) return 0;
+    scree_vector force, torque, velocity, spin;
+    if (integrator->velocity) {
+        integrator->velocity(c->model, c->state, row, velocity, spin);
+        return 0.5 * (scree_body_mass(c->state, row) * scree_dot(velocity, velocity) +
+                      scree_body_inertia(c->state, row) * scree_dot(spin, spin));
+    }
     scree_body_force(c->model, c->state, row, force, torque);
     return -0.5 * lead * (1 - lead) * step * step *
            (scree_dot(force, force) / scree_body_mass(c->state, row) +
@@ -286,7 +291,7 @@ static void book_taken(const scree_context *c)
     state->ledger.turnover += fabs(scree_integer_sum_total(&taken));
 }
 
-static void wake_all(const scree_context *c)
+void scree_sleep_wake_all(const scree_context *c)
 {
     scree_state *state = c->state;
     scree_sleep *sleep = scree_sleep_of(state);
@@ -390,7 +395,7 @@ static scree_status wake(const scree_context *c, scree_error *error)
     scree_sleep *sleep = scree_sleep_of(c->state);
     (void)error;
     if (!all_wake(c)) return SCREE_OK;
-    wake_all(c);
+    scree_sleep_wake_all(c);
     if (!may_sleep(c, &limits)) return SCREE_OK;
     memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
     sleep->walls = scree_case_walls_that_move(c->model, c->state);
@@ -443,7 +448,7 @@ static bool in_use(const scree_context *c)
 static scree_status begin(const scree_context *c, scree_error *error)
 {
     (void)error;
-    wake_all(c);
+    scree_sleep_wake_all(c);
     return SCREE_OK;
 }
 

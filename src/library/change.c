@@ -21,6 +21,7 @@
 #include "run/step.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
+#include "state/sleep.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -266,8 +267,11 @@ static void choose_size(scree_simulation *s)
 /// From the check of the values on nothing is refused: what fails stops the simulation.
 static scree_status change(scree_simulation *s, const scree_body_values *values, former *by_id, scree_error *error)
 {
+    const scree_context context = scree_step_context(s);
     scree_energy before, after;
     choose_size(s);
+    // One that sleeps would not move, and what it exerts on others that do is kept.
+    if (scree_some_sleep(&s->state, values->id, values->count)) scree_sleep_wake_all(&context);
     scree_status status = measure(s, &before, error);
     if (status) return status;
     step_back(s, by_id);

@@ -5,7 +5,7 @@
 /// energy that it comes from: it is taken out of what these have of step n. In T(n) = sum 1/2 m v(n-1/2) . v(n+1/2)
 /// (measure/energy.c) this shows, too. So the residual of the balance is taken before and after, and the ledger has the
 /// difference as energy `removed`: the balance is as closed after as it was before, and from then on holds no force of
-/// what is gone.
+/// what is gone. Where one that sleeps goes, all wake first (integrate/sleep.c).
 ///
 /// Limits: between two steps only. What a law that looks ahead predicted at n is evaluated again, see
 /// contact/take_out.c.
@@ -13,11 +13,13 @@
 
 #include "contact/contact.h"
 #include "contact/surfaces.h"
+#include "integrate/integrate.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"
 #include "state/case_walls.h"
 #include "state/periodic.h"
 #include "state/plates.h"
+#include "state/sleep.h"
 
 /// Force of a contact on its first body [N].
 static void force_of(const scree_contact *contact, scree_vector force)
@@ -76,6 +78,15 @@ static scree_status measure_residual(const scree_model *model, scree_state *stat
     return SCREE_OK;
 }
 
+/// What a body that sleeps exerts on others that do, and on walls, is no part of the sums of this step, but kept with
+/// them (state/sleep.h): it would hold them for ever.
+static void wake_what_sleeps(const scree_model *model, scree_state *state, scree_work *work, const uint32_t *ids,
+                             size_t count)
+{
+    const scree_context c = {.model = model, .state = state, .work = work};
+    if (scree_some_sleep(state, ids, count)) scree_sleep_wake_all(&c);
+}
+
 scree_status scree_bodies_remove(const scree_model *model, scree_state *state, scree_work *work, const uint32_t *ids,
                                  size_t count, scree_error *error)
 {
@@ -83,6 +94,7 @@ scree_status scree_bodies_remove(const scree_model *model, scree_state *state, s
     uint8_t *going = NULL;
     double before, after;
     scree_status status = scree_state_check_removal(state, ids, count, error);
+    if (!status) wake_what_sleeps(model, state, work, ids, count);
     if (!status) status = measure_residual(model, state, work, &table, &before, error);
     if (!status) status = scree_allocate(&going, state->count, sizeof *going, error);
     for (size_t k = 0; k < count && !status; k++) going[scree_state_row_of(state, ids[k])] = 1;

@@ -48,6 +48,7 @@ typedef struct scree_law_traits {
     bool holds;               ///< of pairs of the persistent list: no distance test, constants of the pair's own
     bool wide;                ///< reads the second half of the constants
     bool areas;               ///< forces follow from the area that bodies share: of polygons, in 2D
+    uint8_t energy_at;        ///< where the history has the energy that the contact held in the last step; 0: nowhere
     bool deforms;             ///< overlaps follow the strains of the bodies (state->stretch), whose moments are summed
 } scree_law_traits;
 

@@ -88,7 +88,7 @@ static scree_status open_ledger(scree_simulation *s, scree_error *error)
     state->ledger.initial =
         energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
     state->ledger.gravity = energy.gravity;
-    return SCREE_OK;
+    return scree_contacts_were_placed(&s->stage_model, state, &s->work, error);
 }
 
 /// Changes to the boundary of the stage that begins. What walls that go hold in their contacts goes with them; bodies
@@ -107,6 +107,14 @@ static scree_status change_boundary(scree_simulation *s, scree_error *error)
     // Whoever looks at the contacts before the next step finds those that there are now.
     if (!status && changed) status = scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
     return status;
+}
+
+/// Whether plates of the box go before they have acted, and what bodies behind them seemed to hold with them: with
+/// walls of the case alone, or nothing, bodies may be placed there, and that energy is none.
+static bool plates_were_none(const scree_simulation *s)
+{
+    const scree_ledger *ledger = &s->state.ledger;
+    return s->state.evaluations == 0 && s->boundary->open && !(fabs(ledger->plates) <= 0);
 }
 
 /// Modules that act from this stage on, or no longer.
@@ -150,9 +158,10 @@ static scree_status begin_stage(scree_simulation *s, scree_error *error)
     scree_gravity_enter(&s->stage_model, &s->state, scree_state_total(&s->state) > 0);
     scree_status status = s->stage->begin ? s->stage->begin(s, error) : SCREE_OK;
     if (status) return status;
-    if (!s->stage->instant)
+    if (!s->stage->instant) {
         status = change_boundary(s, error);
-    else if (scree_modules[scree_stage_config(s)->kind]->numbers->places || s->state.evaluations == 0)
+        if (!status && plates_were_none(s)) status = open_ledger(s, error);
+    } else if (scree_modules[scree_stage_config(s)->kind]->numbers->places || s->state.evaluations == 0)
         status = open_ledger(s, error);
     if (!status && !s->stage->instant) status = begin_modules(s, error);
     return status;

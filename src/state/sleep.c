@@ -77,3 +77,10 @@ void scree_sleep_end(scree_state *state)
     sleep->count = sleep->total = 0;
     sleep->changes++;
 }
+
+bool scree_some_sleep(const scree_state *state, const uint32_t *ids, size_t count)
+{
+    bool some = false;
+    for (size_t k = 0; k < count; k++) some = some || scree_body_sleeps(state, scree_state_row_of(state, ids[k]));
+    return some;
+}

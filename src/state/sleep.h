@@ -115,4 +115,7 @@ void scree_sleep_clear_sums(scree_state *state);
 /// Wakes all.
 void scree_sleep_end(scree_state *state);
 
+/// Whether one of the bodies with these ids sleeps.
+bool scree_some_sleep(const scree_state *state, const uint32_t *ids, size_t count);
+
 #endif

@@ -353,6 +353,69 @@ static void only_one_law_has_a_potential(void **unused)
     assert_true(fabs(work[1] / done[1]) < 1e-9);
 }
 
+// ---- bodies that are placed in contact, or beyond the box -----------------------------------------------------------
+
+static scree_energy energy_now(scree_simulation *s)
+{
+    scree_contact_table table = {0};
+    scree_energy energy;
+    scree_error error;
+    check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
+    check(scree_contact_table_build(&s->model, &s->state, &s->work, &table, &error), &error);
+    scree_energy_measure(&s->model, &s->state, &table, &energy);
+    scree_contact_table_destroy(&table);
+    return energy;
+}
+
+/// What contacts hold at the begin is in the ledger's account once: two squares 2 um in each other, and a hexagon as
+/// deep in the floor, come apart with that energy, and the balance is closed from the first step on: to the quanta of
+/// that step, which are of the largest overlap that the guard lets pass.
+static void overlaps_at_the_begin_count_once(void **unused)
+{
+    (void)unused;
+    const char *const pressed[] = {"contact.law=polygon_overlap", "stages.0.bodies.0.position=[0.5 m, 9.521065e-3 m]"};
+    for (int k = 0; k < 2; k++) {
+        scree_case *c;
+        scree_simulation s = k ? open_with(one_text, pressed, COUNT_OF(pressed), &c)
+                               : two_squares("velocity: [0.01, 0]", "velocity: [-0.01, 0]", "materials.0.friction=0.5",
+                                             side_of(0.01) - 2e-6, &c);
+        double worst = 0, first = NAN;
+        for (int n = 0; n < 200; n++) {
+            simulation_step(&s);
+            if (s.state.evaluations == 0) continue;
+            const scree_energy energy = energy_now(&s);
+            if (isnan(first)) first = energy.elastic_normal;
+            worst = fmax(worst, energy.relative);
+        }
+        print_message("held %.3g J, now %.3g J; residual %.2g\n", first, energy_now(&s).elastic_normal, worst);
+        assert_true(first > 1e-6 && s.state.ledger.initial > 0.99 * first);
+        assert_true(worst < 1e-7);
+        close_both(&s, c);
+    }
+}
+
+/// Beside walls of the case a body may lie beyond the box that it is placed in: no plate of the box is ever there, and
+/// none has held anything.
+static void what_is_placed_beyond_the_box_holds_nothing(void **unused)
+{
+    (void)unused;
+    static const char *const places[] = {"-1 mm", "2 mm", "-0.2 m"};
+    for (size_t k = 0; k < COUNT_OF(places); k++) {
+        char body[96];
+        (void)snprintf(body, sizeof body, "stages.0.bodies=[{position: [0.5 m, %s], velocity: [1, 0]}]", places[k]);
+        const char *const overrides[] = {"walls.0.point=[0, -0.5 m]", body};
+        scree_case *c;
+        scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
+        for (int n = 0; n < 50; n++) simulation_step(&s);
+        const scree_energy energy = energy_now(&s);
+        const double kinetic = 0.5 * scree_body_mass(&s.state, 0);
+        assert_true(fabs(s.state.ledger.initial / kinetic - 1) < 1e-6);
+        assert_true(s.state.ledger.plates == 0);
+        assert_true(energy.scale < 4 * kinetic && energy.relative < 1e-12);
+        close_both(&s, c);
+    }
+}
+
 // ---- nothing but the state -----------------------------------------------------------------------------------------
 
 enum { FORGET = 1, LOSE = 2 };
@@ -514,6 +577,8 @@ int main(void)
         cmocka_unit_test(the_step_of_the_source_is_a_tenth_of_half_a_period),
         cmocka_unit_test(a_rigid_rotation_gives_no_slip),
         cmocka_unit_test(only_one_law_has_a_potential),
+        cmocka_unit_test(overlaps_at_the_begin_count_once),
+        cmocka_unit_test(what_is_placed_beyond_the_box_holds_nothing),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(discs_run_among_them),
         cmocka_unit_test(discs_run_alone),

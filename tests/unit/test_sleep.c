@@ -6,6 +6,7 @@
 
 #include "contact/contact.h"
 #include "integrate/integrate.h"
+#include "scree/simulation.h"
 #include "search/search.h"
 #include "state/births.h"
 #include "state/case_walls.h"
@@ -223,6 +224,22 @@ static void a_heap_sleeps_wakes_and_keeps_its_balance(void **unused)
                       seen.most, seen.changes, seen.longest, seen.residual, residual);
         assert_true(seen.residual < fmax(2 * residual, scheme[t]));
     }
+}
+
+/// A scheme with a velocity of its own at n gives one that wakes, under forces that are out of balance, a velocity and
+/// with it an energy: of ten grains poured into the trough the balance closes as with all awake.
+static void one_that_wakes_under_gear_brings_its_energy(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"integrator.scheme=gear", "integrator.step=4e-6 s", "guard.stability=warn",
+                                     "particles.count=10"};
+    scree_case *c;
+    scree_simulation s = open_with(polygons, overrides, COUNT_OF(overrides), &c);
+    const watched seen = watch(&s);
+    print_message("at most %zu asleep, %zu times some woke, residual %.2g\n", seen.most, seen.changes, seen.residual);
+    assert_true(seen.most > 3 && seen.changes > 3);
+    assert_true(seen.residual < 1e-8);
+    close_both(&s, c);
 }
 
 // ---- who sleeps, and who wakes -------------------------------------------------------------------------------------
@@ -498,6 +515,52 @@ static void a_list_knows_how_far_bodies_had_gone(void **unused)
     }
 }
 
+/// A brick that sleeps on another, which is taken out by an outlet while it sleeps, falls, and nothing rests on the
+/// floor any more; pushed from outside it moves. The balance stays closed.
+static void what_sleeps_wakes_before_it_goes_or_is_changed(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "scree: 1\nname: bricks\ngravity: [0, -9.81]\n"
+        "materials: [{name: stone, young_modulus: 1e6 Pa, density: 5000 kg/m3, friction: 0.5, damping_constant: 1}]\n"
+        "contact: {law: polygon_overlap}\nintegrator: {step: 2e-5 s}\n" OUT
+        "particles: {shape: polygon, thickness: 1 m, material: stone, count: 9, distribution: equal, radius: 2 mm,"
+        " outline: regular, corners_min: 4, corners_max: 4}\n"
+        "walls: [{shape: plane, point: [0, 0], normal: [0, 1]}]\n"
+        "sources: [{source: point, place: [0.4, 0.3], interval: 10 s}]\n"
+        "loads: [{load: outlet, every: 8000, lower: [0, 0], upper: [20 mm, 1.7722 mm]}]\n"
+        "stages:\n"
+        "  - {stage: prepare, method: bodies, width: 1, height: 1, bodies: [{position: [10 mm, 1.7725 mm], angle: 45 "
+        "degrees}, {position: [10 mm, 5.317 mm], angle: 45 degrees}, {position: [30 mm, 1.7725 mm], angle: 45 "
+        "degrees}]}\n"
+        "  - {stage: pour, sleep_window: 4 ms, sleep_force: 0.3, sleep_motion: 2e-2, wake_force: 2}\n";
+    scree_case *c;
+    scree_error error;
+    scree_vector velocity, spin;
+    scree_simulation s = open_with(text, NULL, 0, &c);
+    step_to(&s, 0.1599);
+    const double weight = 9.81 * scree_body_mass(&s.state, 0), *floor = scree_case_walls(&s.state)->load[0].force;
+    assert_int_equal(asleep(&s), 3);
+    assert_true(fabs(floor[1] / weight + 3) < 1e-3);
+    step_to(&s, 0.165);
+    assert_int_equal(s.state.count, 3);
+    scree_body_velocity(&s.model, &s.state, scree_state_row_of(&s.state, 1), velocity, spin);
+    assert_true(fabs(velocity[1] / (-9.81 * (scree_state_time(&s.state) - 0.16)) - 1) < 0.02);
+    assert_true(fabs(floor[1] / weight + 1) < 0.1);
+    step_to(&s, 0.3);
+    const uint32_t pushed[] = {2};
+    const double speed[] = {0.2, 0.3};
+    assert_true(scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 2)));
+    check(scree_simulation_set(&s, &(scree_body_values){.count = 1, .id = pushed, .velocity = speed}, &error), &error);
+    const uint32_t row = scree_state_row_of(&s.state, 2);
+    const double from = s.state.row[row].y;
+    step_to(&s, 0.31);
+    assert_true(s.state.row[scree_state_row_of(&s.state, 2)].y - from > 2e-3);
+    while (!s.sampled) simulation_step(&s);
+    assert_true(simulation_residual(&s, 0) < 1e-8);
+    close_both(&s, c);
+}
+
 static void nothing_but_the_state_decides(void **unused)
 {
     (void)unused;
@@ -540,6 +603,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_rests_is_what_contacts_exert),
         cmocka_unit_test(a_heap_sleeps_wakes_and_keeps_its_balance),
+        cmocka_unit_test(one_that_wakes_under_gear_brings_its_energy),
         cmocka_unit_test(what_falls_does_not_sleep),
         cmocka_unit_test(gravity_wakes),
         cmocka_unit_test(a_push_wakes_at_its_mean),
@@ -548,6 +612,7 @@ int main(void)
         cmocka_unit_test(a_wall_that_begins_to_move_wakes),
         cmocka_unit_test(a_lost_contact_wakes),
         cmocka_unit_test(a_list_knows_how_far_bodies_had_gone),
+        cmocka_unit_test(what_sleeps_wakes_before_it_goes_or_is_changed),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(a_restart_goes_on),
     };
