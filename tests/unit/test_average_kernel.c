@@ -195,9 +195,10 @@ static scree_average_sample leaning_cell(double lean)
     s.gravity[1] = -1;
     memcpy(s.lattice, lattice, sizeof s.lattice);
     for (uint32_t k = 0; k < 2 * N; k++) {
-        double fraction[3] = {average_random(at++), average_random(at++), 0}, x[3], y[3];
-        const double angle = 2 * M_PI * average_random(at++),
-                     force[3] = {average_random(at++), average_random(at++), 0};
+        double fraction[3] = {average_random(at), average_random(at + 1), 0}, x[3], y[3];
+        const double angle = 2 * M_PI * average_random(at + 2),
+                     force[3] = {average_random(at + 3), average_random(at + 4), 0};
+        at += 5;
         scree_matrix_apply(lattice, fraction, x);
         const uint32_t one = average_add(&s, x[0], x[1], 0, k % 30 == 3 ? 0.3 : 0.02);
         const double apart = s.grain[one].radius + 0.02, way[3] = {apart * cos(angle), apart * sin(angle), 0};
