@@ -120,12 +120,7 @@ static void find_reach(const listed *l, const shown *s, int c, double reach[2])
 {
     reach[0] = reach[1] = s->radius;
     if (!l->outlines || !isfinite(s->radius) || !isfinite(s->body->angle)) return;
-    const scree_given_outline outline =
-        scree_given_outline_of(l->config, (uint64_t)s->index, s->radius, s->body->angle);
-    for (int k = 0; k < 2; k++) {
-        const double side = k ? 1 : -1, direction[2] = {c == 0 ? side : 0, c == 1 ? side : 0};
-        reach[k] = scree_given_outline_support(&outline, direction);
-    }
+    scree_given_outline_reach(l->config, (uint64_t)s->index, s->radius, s->body->angle, c, reach);
 }
 
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.

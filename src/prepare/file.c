@@ -274,9 +274,7 @@ static void find_reach(const judged *j, bool outlines, size_t i, int c, double r
     reach[0] = reach[1] = column[SCREE_GRAIN_RADIUS][i];
     if (!outlines) return;
     const double angle = column[SCREE_GRAIN_ANGLE] ? column[SCREE_GRAIN_ANGLE][i] : 0;
-    const scree_given_outline outline = scree_given_outline_of(j->config, i, reach[0], angle);
-    for (int k = 0; k < 2; k++)
-        reach[k] = scree_given_outline_support(&outline, (double[2]){c == 0 ? 2 * k - 1 : 0, c == 1 ? 2 * k - 1 : 0});
+    scree_given_outline_reach(j->config, i, reach[0], angle, c, reach);
 }
 
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.

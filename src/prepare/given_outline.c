@@ -48,10 +48,21 @@ static scree_core core_of(const scree_given_outline *o)
     return (scree_core){(const double(*)[2])o->corner, o->count, o->bound - o->rounding, o->rounding};
 }
 
-double scree_given_outline_support(const scree_given_outline *outline, const double direction[2])
+/// Farthest reach along a direction, a unit vector [m].
+static double support(const scree_given_outline *outline, const double direction[2])
 {
     const scree_core core = core_of(outline);
     return scree_core_support(&core, direction) + outline->rounding;
+}
+
+void scree_given_outline_reach(const scree_config *config, uint64_t number, double radius, double angle, int axis,
+                               double reach[2])
+{
+    const scree_given_outline outline = scree_given_outline_of(config, number, radius, angle);
+    for (int k = 0; k < 2; k++) {
+        const double side = k ? 1 : -1, direction[2] = {axis == 0 ? side : 0, axis == 1 ? side : 0};
+        reach[k] = support(&outline, direction);
+    }
 }
 
 /// A / l; what no law can use: INFINITY.

@@ -25,8 +25,10 @@ scree_given_outline scree_given_outline_of(const scree_config *config, uint64_t 
 /// No body of this equivalent radius reaches farther from its centre [m].
 double scree_given_reach(const scree_config *config, double radius);
 
-/// Farthest reach along a direction, a unit vector [m].
-double scree_given_outline_support(const scree_given_outline *outline, const double direction[2]);
+/// What a body as that of scree_given_outline_of reaches from its centre towards both walls across direction `axis`
+/// [m].
+void scree_given_outline_reach(const scree_config *config, uint64_t number, double radius, double angle, int axis,
+                               double reach[2]);
 
 typedef struct scree_given_depth {
     double depth; ///< m, the shortest way that parts them (shape/core_gap.h); negative where they are apart
