@@ -88,8 +88,8 @@ SCREE_INLINE lanes outlines_length(const outlines_share *share)
 }
 
 /// Velocity of one of two crossings relative to the first centre [m/s], exactly: it stays on the outlines of both
-/// bodies. velocity: of the second centre relative to the first. Mask: where it runs less far along an edge in `step`
-/// than a quarter of the chord, so that its velocity says something about the step.
+/// bodies. velocity: of the second centre relative to the first. Mask: where it runs less far along either edge in
+/// `step` than a quarter of the chord, so that its velocity says something about the step.
 SCREE_INLINE lanes_bits outlines_crossing_rate(const outlines_share *share, int crossing, const lanes velocity[2],
                                                const lanes spin[2], double step, lanes rate[2])
 {
@@ -104,8 +104,10 @@ SCREE_INLINE lanes_bits outlines_crossing_rate(const outlines_share *share, int 
     const lanes across = one[0] * other[1] - one[1] * other[0];
     const lanes share_of_one = (passing[0] * other[1] - passing[1] * other[0]) / across;
     const lanes way[2] = {share_of_one * one[0], share_of_one * one[1]};
+    const lanes back[2] = {way[0] - passing[0], way[1] - passing[1]};
     for (int i = 0; i < 2; i++) rate[i] = own[i] + way[i];
-    return lanes_below(16.0 * (way[0] * way[0] + way[1] * way[1]) * step * step, most);
+    return lanes_below(16.0 * (way[0] * way[0] + way[1] * way[1]) * step * step, most) &
+           lanes_below(16.0 * (back[0] * back[0] + back[1] * back[1]) * step * step, most);
 }
 
 /// The turn of the normal [rad] and the ways of the point from both centres [m] in a step. velocity: of the second
