@@ -36,13 +36,17 @@ static double misfit_of(int dimension, double stress_trace, double strain_trace,
     return sqrt(rest / (contract(s, s) + stress_trace * stress_trace / dimension));
 }
 
+/// Share of a strain below which its trace, or its deviator, is the round-off of a difference of places.
+static const double ROUND_OFF = 1e-12;
+
 scree_average_elastic scree_average_elastic_find(int dimension, const double stress[9], const double gradient[9])
 {
     double stress_trace, strain_trace, s[9], e[9];
     split(dimension, stress, &stress_trace, s);
     split(dimension, gradient, &strain_trace, e);
-    const double k = strain_trace != 0 ? stress_trace / (dimension * strain_trace) : NAN;
-    const double square = contract(e, e), g = square > 0 ? 0.5 * contract(s, e) / square : NAN;
+    const double square = contract(e, e), least = ROUND_OFF * hypot(sqrt(square), strain_trace);
+    const double k = fabs(strain_trace) > least ? stress_trace / (dimension * strain_trace) : NAN;
+    const double g = sqrt(square) > least ? 0.5 * contract(s, e) / square : NAN;
     return (scree_average_elastic){.bulk = k,
                                    .shear = g,
                                    .young = dimension == 2 ? 3 * g - g * g / k : 9 * k * g / (3 * k + g),

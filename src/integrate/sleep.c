@@ -13,11 +13,11 @@
 /// a push runs through a pile as far as it is strong. Every LOOK_EVERY steps wakes, too, what has lost a contact since
 /// the look before, one that it had when it fell asleep or with what came to rest beside it later, and what others that
 /// sleep alone leave out of balance by more than `wake`: a hole below, or beside, is a push as well. All wake every
-/// `interval`, and none falls asleep for HOLD windows then: what sleepers bear in vain, each less than `wake`, goes on
-/// to where it belongs as a wave does, in the time of one. (Were each woken by what it bears in vain, it would hand
-/// half of it back to those above: a weight would go down n layers by a walk of n^2 steps, each a window long.) All
-/// wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, when another stage
-/// begins, and before one that sleeps is taken out or changed from outside.
+/// `interval`, and none falls asleep for SCREE_SLEEP_HOLD windows then: what sleepers bear in vain, each less than
+/// `wake`, goes on to where it belongs as a wave does, in the time of one. (Were each woken by what it bears in vain,
+/// it would hand half of it back to those above: a weight would go down n layers by a walk of n^2 steps, each a window
+/// long.) All wake when gravity changes, when a wall begins to move or stops, when the sources have stopped, when
+/// another stage begins, and before one that sleeps is taken out or changed from outside.
 ///
 /// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
 /// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
@@ -50,8 +50,6 @@
 enum { WAKE_EVERY = 16, LOOK_EVERY = 128 };
 /// Rows that are looked at together.
 enum { BLOCK = 16 };
-/// Windows for which none falls asleep after all have woken.
-static const double HOLD = 4;
 _Static_assert(LOOK_EVERY % WAKE_EVERY == 0, "all are found in the steps in which some may wake");
 
 // ---- whether ------------------------------------------------------------------------------------------------------
@@ -411,10 +409,11 @@ static scree_status decide(const scree_context *c, scree_error *error)
     if (!may_sleep(c, &limits)) return SCREE_OK;
     scree_status status = make_room(state, error);
     if (status) return status;
+    const bool look = state->evaluations % LOOK_EVERY == 0;
+    const bool held = scree_state_time(state) - sleep->woken < SCREE_SLEEP_HOLD * limits.window;
     int64_t found = (int64_t)mark_waking(c, &limits);
-    if (state->evaluations % LOOK_EVERY == 0) found += (int64_t)mark_left(c, &limits);
-    const bool held = scree_state_time(state) - sleep->woken < HOLD * limits.window;
-    if (state->evaluations % LOOK_EVERY == 0 && !held) found += (int64_t)mark_falling(c, &limits);
+    if (look) found += (int64_t)mark_left(c, &limits);
+    if (look && !held) found += (int64_t)mark_falling(c, &limits);
     // In the other steps nobody finds any.
     if (state->evaluations % WAKE_EVERY == 0) scree_comm_add(state, &found, 1);
     sleep->awake_steps += scree_state_total(state) - sleep->total;

@@ -15,6 +15,8 @@ typedef struct scree_sleep_limits {
     double wake;     ///< 1, mean resultant of a window over weight above which it wakes
     double interval; ///< s, after which all wake
 } scree_sleep_limits;
+/// Windows for which none falls asleep after all have woken.
+#define SCREE_SLEEP_HOLD 4
 
 /// `config` is the stage's own struct, in which its keys are.
 typedef struct scree_stage_numbers {

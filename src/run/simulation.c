@@ -109,6 +109,14 @@ static scree_status change_boundary(scree_simulation *s, scree_error *error)
     return status;
 }
 
+/// Whether plates of the box go before they have acted, and what bodies behind them seemed to hold with them: with
+/// walls of the case alone, or nothing, bodies may be placed there, and that energy is none.
+static bool plates_were_none(const scree_simulation *s)
+{
+    const scree_ledger *ledger = &s->state.ledger;
+    return s->state.evaluations == 0 && s->boundary->open && !(fabs(ledger->plates) <= 0);
+}
+
 /// Modules that act from this stage on, or no longer.
 static scree_status begin_modules(scree_simulation *s, scree_error *error)
 {
@@ -150,9 +158,10 @@ static scree_status begin_stage(scree_simulation *s, scree_error *error)
     scree_gravity_enter(&s->stage_model, &s->state, scree_state_total(&s->state) > 0);
     scree_status status = s->stage->begin ? s->stage->begin(s, error) : SCREE_OK;
     if (status) return status;
-    if (!s->stage->instant)
+    if (!s->stage->instant) {
         status = change_boundary(s, error);
-    else if (scree_modules[scree_stage_config(s)->kind]->numbers->places || s->state.evaluations == 0)
+        if (!status && plates_were_none(s)) status = open_ledger(s, error);
+    } else if (scree_modules[scree_stage_config(s)->kind]->numbers->places || s->state.evaluations == 0)
         status = open_ledger(s, error);
     if (!status && !s->stage->instant) status = begin_modules(s, error);
     return status;

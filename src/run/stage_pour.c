@@ -114,8 +114,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
             check_sleep_keys(reader, i, whole->stages[i].own);
 }
 
-/// A body is quiet for a window when it has been for as many steps: for less than one that is nothing. None falls
-/// asleep before five of them have gone by since all woke (integrate/sleep.c).
+/// A body is quiet for a window when it has been for as many steps: for less than one that is nothing. All wake for
+/// SCREE_SLEEP_HOLD of them, and none falls asleep before it has been quiet for another.
 static scree_status resolve(scree_model *model, scree_error *error)
 {
     const double step = model->step * (double)model->largest_step;
@@ -129,12 +129,12 @@ static scree_status resolve(scree_model *model, scree_error *error)
                 "%.3g s is less than a step of this case, %.3g s: a particle has to be quiet for many "
                 "(built-in cases: 5 ms)",
                 own->sleep_window, step);
-        if (own->wake_interval <= 5 * own->sleep_window)
+        const double least = (SCREE_SLEEP_HOLD + 1) * own->sleep_window;
+        if (own->wake_interval <= least)
             return scree_error_refuse(error, scree_element_path(path, "stages", i, "wake_interval"), NULL,
-                                      "none would ever sleep: within %.3g s all wake for four of `sleep_window`, %.3g "
-                                      "s, and have to be quiet "
-                                      "for another: give more than %.3g s",
-                                      own->wake_interval, own->sleep_window, 5 * own->sleep_window);
+                                      "none would ever sleep: within %.3g s all wake for %d of `sleep_window`, %.3g s, "
+                                      "and have to be quiet for another: give more than %.3g s",
+                                      own->wake_interval, SCREE_SLEEP_HOLD, own->sleep_window, least);
     }
     return SCREE_OK;
 }

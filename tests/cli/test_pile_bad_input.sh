@@ -117,7 +117,7 @@ done
 changed 's/  - stage: pour/&\n    sleep_force: 0.01\n    sleep_motion: 1e-4\n    wake_force: 0.1\n    wake_interval: 1 s/' 'pile-point' 0
 changed 's/  - stage: pour/&\n    sleep_window: 1e-6 s/' '^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.sleep_window: 1e-06 s is less than a step of this case, 2e-06 s: a particle has to be quiet for many'
 changed 's/  - stage: pour/&\n    sleep_window: 2e-6 s/' 'pile-point' 0
-changed 's/  - stage: pour/&\n    sleep_window: 5 ms\n    wake_interval: 20 ms/' '^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.wake_interval: none would ever sleep: within 0\.02 s all wake for four of .sleep_window., 0\.005 s, and have to be quiet for another: give more than 0\.025 s'
+changed 's/  - stage: pour/&\n    sleep_window: 5 ms\n    wake_interval: 20 ms/' '^bad\.yaml:[0-9]*:[0-9]*: stages\.1\.wake_interval: none would ever sleep: within 0\.02 s all wake for 4 of .sleep_window., 0\.005 s, and have to be quiet for another: give more than 0\.025 s'
 
 # Without sources the keys of quick that set some of theirs are wrong, and nothing else is near to them.
 sed '/^sources:/,/^$/d' good.yaml >bad.yaml

@@ -66,6 +66,13 @@ static void the_fit_is_of_least_squares(void **state)
     const double none[9] = {0};
     const scree_average_elastic nothing = scree_average_elastic_find(2, s, none);
     assert_true(isnan(nothing.bulk) && isnan(nothing.shear) && isnan(nothing.young) && isnan(nothing.poisson));
+    // Pure shear and pure dilation, as differences of places know them.
+    const double shear[9] = {0.1 * (1 + 1e-15), 0, 0, 0, -0.1}, dilation[9] = {0.1 * (1 + 1e-15), 0, 0, 0, 0.1};
+    const scree_average_elastic sheared = scree_average_elastic_find(2, s, shear),
+                                dilated = scree_average_elastic_find(2, s, dilation);
+    assert_true(isnan(sheared.bulk) && isnan(sheared.young) && isnan(dilated.shear));
+    near(sheared.shear, 15, 1e-9);
+    near(dilated.bulk, 10, 1e-9);
 }
 
 // ---- lattices ----------------------------------------------------------------------------------------------------

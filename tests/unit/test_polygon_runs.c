@@ -435,6 +435,28 @@ static void overlaps_at_the_begin_count_once(void **unused)
     }
 }
 
+/// Beside walls of the case a body may lie beyond the box that it is placed in: no plate of the box is ever there, and
+/// none has held anything.
+static void what_is_placed_beyond_the_box_holds_nothing(void **unused)
+{
+    (void)unused;
+    static const char *const places[] = {"-1 mm", "2 mm", "-0.2 m"};
+    for (size_t k = 0; k < COUNT_OF(places); k++) {
+        char body[96];
+        (void)snprintf(body, sizeof body, "stages.0.bodies=[{position: [0.5 m, %s], velocity: [1, 0]}]", places[k]);
+        const char *const overrides[] = {"walls.0.point=[0, -0.5 m]", body};
+        scree_case *c;
+        scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
+        for (int n = 0; n < 50; n++) simulation_step(&s);
+        const scree_energy energy = energy_now(&s);
+        const double kinetic = 0.5 * scree_body_mass(&s.state, 0);
+        assert_true(fabs(s.state.ledger.initial / kinetic - 1) < 1e-6);
+        assert_true(s.state.ledger.plates == 0);
+        assert_true(energy.scale < 4 * kinetic && energy.relative < 1e-12);
+        close_both(&s, c);
+    }
+}
+
 // ---- nothing but the state -----------------------------------------------------------------------------------------
 
 enum { FORGET = 1, LOSE = 2 };
@@ -598,6 +620,7 @@ int main(void)
         cmocka_unit_test(a_rigid_rotation_gives_no_slip),
         cmocka_unit_test(only_one_law_has_a_potential),
         cmocka_unit_test(overlaps_at_the_begin_count_once),
+        cmocka_unit_test(what_is_placed_beyond_the_box_holds_nothing),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(discs_run_among_them),
         cmocka_unit_test(discs_run_alone),

@@ -109,7 +109,7 @@ static void tables_of_velocity_and_displacement_agree(void **unused)
         print_message("way %.6g m, ball at %.6g m, work %.4g J, residual %.2g\n", way[k], ball[k],
                       scree_case_walls(&s->state)->load[1].work, worst);
         assert_true(fabs(way[k] - 0.004) < 1e-12 && ball[k] > way[k] - 1.5e-3 + 0.9e-3);
-        assert_true(scree_case_walls(&s->state)->load[1].work > 1e-7 && worst < 1e-8);
+        assert_true(scree_case_walls(&s->state)->load[1].work > 1e-7 && worst < 1e-5);
         close_case(s, c);
     }
     // The steps of the second table are 50 us long.
@@ -166,7 +166,7 @@ static void the_balance_closes(void **unused)
         close_case(s, c);
     }
     print_message("residual %.2g, %.2g at half the step\n", worst[0], worst[1]);
-    assert_true(worst[0] < 1e-9 && worst[1] < worst[0] / 3);
+    assert_true(worst[0] < 1e-5 && worst[1] < worst[0] / 3.5);
 }
 
 /// From checkpoints in mid-motion, and with other threads.
