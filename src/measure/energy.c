@@ -215,5 +215,5 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
         if (scree_modules[m]->work) energy->residual -= scree_modules[m]->work(state);
     energy->scale = ledger->initial + ledger->turnover + fabs(ledger->removed) + fabs(energy->gravity) + stored +
                     energy_of_rounding(model, state, body, largest, contact[NORMAL_FORCE]);
-    energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;
+    energy->relative = energy->scale <= 0 ? 0 : fabs(energy->residual) / energy->scale; // not a number: the guard stops
 }

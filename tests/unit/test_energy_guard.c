@@ -101,6 +101,24 @@ static void growing_energy_is_caught(void **unused)
     scree_case_free(c);
 }
 
+/// What is not a number is no small residual.
+static void an_energy_that_is_no_number_stops(void **unused)
+{
+    (void)unused;
+    scree_case *c = case_read(gas_text, NULL, 0);
+    scree_simulation s;
+    scree_error error = {0};
+    scree_status status = SCREE_OK;
+    simulation_open(c, 1, &s);
+    while (s.state.evaluations == 0) simulation_step(&s);
+    s.state.ledger.turnover = NAN;
+    while (!status && simulation_goes_on(&s)) status = scree_simulation_step(&s, &error);
+    assert_int_equal(status, SCREE_ERROR_GUARD);
+    assert_true(isnan(s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]));
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
 static void the_summary_divides_by_the_same(void **unused)
 {
     (void)unused;
@@ -131,6 +149,7 @@ int main(void)
         cmocka_unit_test(an_elastic_gas_goes_on),
         cmocka_unit_test(bodies_at_rest_are_round_off),
         cmocka_unit_test(growing_energy_is_caught),
+        cmocka_unit_test(an_energy_that_is_no_number_stops),
         cmocka_unit_test_setup_teardown(the_summary_divides_by_the_same, make_scratch, remove_scratch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
