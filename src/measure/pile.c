@@ -168,11 +168,11 @@ static void stretch(const scree_state *state, size_t row, scree_pile *pile, doub
 static scree_status make_columns(const scree_model *model, const scree_state *state, scree_pile *pile,
                                  scree_error *error)
 {
-    const double width = model->mean_radius;
     double low = INFINITY, high = -INFINITY;
     for (size_t row = 0; row < state->count; row++)
         if (pile->member[row]) stretch(state, row, pile, &low, &high);
-    pile->columns = (size_t)floor((high - low) / width) + 1;
+    pile->columns = (size_t)ceil((high - low) / model->mean_radius);
+    const double width = (high - low) / (double)pile->columns;
     scree_status status = scree_allocate(&pile->column, pile->columns, sizeof *pile->column, error);
     for (size_t k = 0; k < pile->columns && !status; k++)
         pile->column[k] = (scree_pile_column){low + ((double)k + 0.5) * width, NAN};

@@ -6,9 +6,10 @@
 /// grain without a gap of more than a mean diameter: single grains that have rolled away have no part in widths and
 /// angles.
 ///
-/// Outline. The height of the surface in columns of a mean radius each, seen along y in 3D: the highest point that the
-/// outlines of grains have anywhere within the column (shape/outline_extent.h), above the base, which is the lowest
-/// point where a grain touches what stands. Up is the last axis.
+/// Outline. The height of the surface in columns of a mean radius at most, which reach from one outermost grain to the
+/// other, seen along y in 3D: the highest point that the outlines of grains have anywhere within the column
+/// (shape/outline_extent.h), above the base, which is the lowest point where a grain touches what stands. Up is the
+/// last axis.
 ///
 /// Angles of repose [rad], left and right:
 ///   by the corners (R 3.1.1: "base angles")  the slope of the line from the foot of the heap, where its outermost
@@ -21,8 +22,8 @@
 /// of the pile, those with what stands among them; share of the middle: of the force on the plate what acts on the
 /// middle third of the foot.
 ///
-/// Limits: a column has the height of its highest place, so that the surface lies somewhat outside; the heap ends where
-/// its last column does. Cost: linear in contacts and corners.
+/// Limits: a column has the height of its highest place, so that the surface lies somewhat outside; beside grains that
+/// have rolled away the heap ends where its last column does. Cost: linear in contacts and corners.
 #ifndef SCREE_MEASURE_PILE_H
 #define SCREE_MEASURE_PILE_H
 

@@ -95,7 +95,7 @@ static double step_between(double from, double to)
 }
 
 /// Height, width, angles, surface and solid fraction are those of the stairs. The lowest contact lies within the
-/// overlap with the plate; the foot ends with a column, a mean radius wide. The top is as wide as a grain, so its left
+/// overlap with the plate; the foot ends with the outermost grains. The top is as wide as a grain, so its left
 /// or right end is the highest point.
 static void stairs_are_measured(void **unused)
 {
@@ -105,21 +105,22 @@ static void stairs_are_measured(void **unused)
     lay_steps(&l);
     measure(&l, false, &pile);
     const double sunk = 0.5 * CLOSE * high(), height = step_between(0, 0);
-    const double half = (1 - CLOSE) * wide() * (ROWS - 1) + 0.5 * wide(), columns = floor(2 * half / RADIUS) + 1;
+    const double half = (1 - CLOSE) * wide() * (ROWS - 1) + 0.5 * wide(), columns = ceil(2 * half / RADIUS),
+                 width = 2 * half / columns;
     double area = 0;
     assert_int_equal(pile.grains, COUNT);
     assert_true(pile.base <= 1e-15 && pile.base >= -sunk - 1e-15);
     assert_true(fabs(pile.top - height) < 1e-15);
     assert_true(fabs(fabs(pile.apex) - 0.5 * wide()) < 1e-15);
     assert_int_equal(pile.columns, columns);
-    assert_true(fabs(pile.left + half) < 1e-15 && fabs(pile.right - (columns * RADIUS - half)) < 1e-14);
+    assert_true(fabs(pile.left + half) < 1e-15 && fabs(pile.right - half) < 1e-14);
     assert_true(fabs(tan(pile.angle[0]) - (height - pile.base) / (pile.apex + half)) < 1e-12);
     assert_true(fabs(tan(pile.angle[1]) - (height - pile.base) / (pile.right - pile.apex)) < 1e-12);
     for (size_t k = 0; k < pile.columns; k++) {
-        const double x = -half + ((double)k + 0.5) * RADIUS, wanted = step_between(x - 0.5 * RADIUS, x + 0.5 * RADIUS);
+        const double x = -half + ((double)k + 0.5) * width, wanted = step_between(x - 0.5 * width, x + 0.5 * width);
         assert_true(fabs(pile.column[k].x - x) < 1e-14);
         assert_true(fabs(pile.column[k].height - (wanted - pile.base)) < 1e-14);
-        area += RADIUS * (wanted - pile.base);
+        area += width * (wanted - pile.base);
     }
     assert_true(fabs(pile.solid_fraction - COUNT * M_PI * RADIUS * RADIUS / area) < 1e-12);
     scree_pile_destroy(&pile);
