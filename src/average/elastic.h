@@ -13,8 +13,8 @@
 ///     3D:                nu = (3 K - 2 G) / (2 (3 K + G)),  E = 9 K G / (3 K + G)
 /// In 2D K = lambda + G. A layer that may grow in the third direction (plane stress) with the same K and G has
 /// nu = (K - G) / (K + G) and E = 4 K G / (K + G) instead. `misfit` is |s - the law's| / |s| with the constants found:
-/// 0 of an isotropic medium, and below 1 always. No strain gives no constants: NAN;
-/// no trace of the strain, or none but round-off, no K, and no deviator no G.
+/// 0 of an isotropic medium, and below 1 always. No strain gives no constants: NAN; no trace of the
+/// strain, or none but round-off, no K, and no deviator no G.
 ///
 /// Source: P. Roul, PhD thesis, Magdeburg 2009, 3.10. Units: SI.
 #ifndef SCREE_AVERAGE_ELASTIC_H

@@ -82,18 +82,24 @@ static void bodies_at_rest_are_round_off(void **unused)
     assert_true(run_to_end(lattice_text, apart, 1) == 0);
 }
 
+/// Goes on to the end of the case, or until something stops it, and returns what.
+static scree_status stopped_by(scree_simulation *s, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    while (!status && simulation_goes_on(s)) status = scree_simulation_step(s, error);
+    return status;
+}
+
 static void growing_energy_is_caught(void **unused)
 {
     (void)unused;
     scree_case *c = case_read(gas_text, NULL, 0);
     scree_simulation s;
     scree_error error = {0};
-    scree_status status = SCREE_OK;
     simulation_open(c, 1, &s);
     // Four times the critical step of the strongest impact that the step is chosen for: a mean one is not resolved.
     s.model.step *= 40;
-    while (!status && simulation_goes_on(&s)) status = scree_simulation_step(&s, &error);
-    assert_int_equal(status, SCREE_ERROR_GUARD);
+    assert_int_equal(stopped_by(&s, &error), SCREE_ERROR_GUARD);
     if (!strstr(error.message, "energy appears from nowhere")) fail_msg("'%s'", error.message);
     const double *value = s.sample;
     assert_true(value[SCREE_SAMPLE_KINETIC] + value[SCREE_SAMPLE_ELASTIC_NORMAL] > 1.05 * s.state.ledger.initial);
@@ -108,12 +114,10 @@ static void an_energy_that_is_no_number_stops(void **unused)
     scree_case *c = case_read(gas_text, NULL, 0);
     scree_simulation s;
     scree_error error = {0};
-    scree_status status = SCREE_OK;
     simulation_open(c, 1, &s);
     while (s.state.evaluations == 0) simulation_step(&s);
     s.state.ledger.turnover = NAN;
-    while (!status && simulation_goes_on(&s)) status = scree_simulation_step(&s, &error);
-    assert_int_equal(status, SCREE_ERROR_GUARD);
+    assert_int_equal(stopped_by(&s, &error), SCREE_ERROR_GUARD);
     assert_true(isnan(s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]));
     scree_simulation_close(&s);
     scree_case_free(c);

@@ -95,8 +95,8 @@ static double step_between(double from, double to)
 }
 
 /// Height, width, angles, surface and solid fraction are those of the stairs. The lowest contact lies within the
-/// overlap with the plate; the foot ends with the outermost grains. The top is as wide as a grain, so its left
-/// or right end is the highest point.
+/// overlap with the plate; the foot ends with the outermost grains. The top is as wide as a grain, so its left or right
+/// end is the highest point.
 static void stairs_are_measured(void **unused)
 {
     (void)unused;
